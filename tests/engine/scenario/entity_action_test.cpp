@@ -18,7 +18,7 @@ std::string comes(const std::string& entity, int lane, double s_m) {
                                    std::to_string(lane) + "\" s=\"" + std::to_string(s_m) +
                                    "\"/></Position></AddEntityAction>");
 }
-const std::string one_car = private_text("A", place_text(-2, 100) + speed_text(20));
+const std::string a_alone = private_text("A", place_text(-2, 100) + speed_text(20));
 
 std::string hazard(const std::string& content) {
   return "<UserDefinedAction><CustomCommandAction type=\"septet:hazard\">" + content +
@@ -30,7 +30,7 @@ std::string hazard(const std::string& content) {
 TEST_CASE(
     "an entity without a place comes into the world where and when it is added, and leaves it when it is deleted") {
   Drive drive(
-      scenario_text(one_car, story_text(event_text("come", comes("B", -1, 300.0), at_time(1.0)) +
+      scenario_text(a_alone, story_text(event_text("come", comes("B", -1, 300.0), at_time(1.0)) +
                                         event_text("go", entity_action("B", "<DeleteEntityAction/>"), at_time(2.0)) +
                                         event_text("again", comes("B", -3, 400.0), at_time(3.0)))));
   std::vector<Participant> others;
@@ -83,7 +83,7 @@ TEST_CASE("a hazard tells its name and the actors of its group, with parameters 
 
 TEST_CASE("what breaks and is to be added later is named, as is an entity action that does nothing") {
   const auto findings =
-      check_scenario(scenario_text(one_car, story_text(event_text("e", entity_action("B", ""), at_time(1.0)))),
+      check_scenario(scenario_text(a_alone, story_text(event_text("e", entity_action("B", ""), at_time(1.0)))),
                      "t.xosc", files_in("."));
   bool told = false;
   for (const Finding& finding : findings) told = told || finding.error.what == "it does nothing";
