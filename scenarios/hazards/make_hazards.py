@@ -14,6 +14,7 @@ from xml.sax.saxutils import quoteattr
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "town"))
 from make_town import Town  # noqa: E402
+from town_plan import WAY  # noqa: E402
 from town_scenario import phases  # noqa: E402
 
 DATE = "2026-11-29T12:00:00"
@@ -342,6 +343,15 @@ def weather():
                tag("RoadCondition", frictionScaleFactor=1, wetness="dry"), name="a cold morning")))
 
 
+def way(town):
+    """The route of the driver's car: the middle of each street on the town's way."""
+    found = []
+    for a, b in zip(WAY, WAY[1:]):
+        street, number = next((street, number) for street, number in town.numbers.items() if {street.a, street.b} == {a, b})
+        found.append(tag("Waypoint", lane_place(number, -1 if street.a == a else 1, round(street.length / 2, 1)), routeStrategy="shortest"))
+    return private(tag("RoutingAction", tag("AssignRouteAction", tag("Route", *found, name="past the hazards", closed="false"))))
+
+
 def ends(last):
     reached = tag("ReachPositionCondition", tag("Position", tag("LanePosition", roadId=last, laneId=1, s=40, offset=0)), tolerance=10)
     out = condition("out of the town", of_driver(reached).replace("$driver", "ego"))
@@ -357,7 +367,7 @@ def scenario():
     spare = [(hazard, hazard) for hazard in HAZARDS]
     parameters = tag("ParameterDeclarations", tag("ParameterDeclaration", name="vehicles", parameterType="unsignedInt", value=40))
     catalogs = tag("CatalogLocations", *(tag(f"{kind}Catalog", tag("Directory", path="../catalogs")) for kind in ("Vehicle", "Pedestrian", "Maneuver")))
-    starts = tag("Private", private(tag("TeleportAction", tag("Position", tag("LanePosition", roadId=of_entry["west"], laneId=-1, s=20, offset=0)))), entityRef="ego")
+    starts = tag("Private", private(tag("TeleportAction", tag("Position", tag("LanePosition", roadId=of_entry["west"], laneId=-1, s=20, offset=0)))), way(town), entityRef="ego")
     things = [line for label, hazard in placed + spare for line in entities(hazard, label)]
     acts = [act(hazard, label, waits) for some, waits in ((placed, False), (spare, True)) for label, hazard in some]
     return [header("Ten hazards along a way through the town, and eleven for the operator"), parameters, catalogs,
