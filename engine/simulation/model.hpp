@@ -45,12 +45,12 @@ struct Model {
   scenario::Scenario scenario;
   scenario::EntityIndex driver_entity = scenario::no_entity;  ///< The driver's car in the scenario.
   vehicle::VehicleParameters car;
-  std::shared_ptr<const roadside::Obstacles> obstacles;  ///< Obstacles beside the roads; null: none.
-  std::shared_ptr<const roadside::RaisedAreas> raised;   ///< Kerbs and islands that are objects; null: none.
-  std::vector<SwitchedLight> lights;                     ///< In the order of the road file.
+  std::shared_ptr<const roadside::Obstacles> obstacles;   ///< Obstacles beside the roads; null: none.
+  std::shared_ptr<const roadside::RaisedAreas> raised;    ///< Kerbs and islands that are objects; null: none.
+  std::vector<SwitchedLight> lights;                      ///< In the order of the road file.
   std::shared_ptr<const traffic::WalkwayGraph> walkways;  ///< Where people of a swarm walk; null: nowhere.
-  std::vector<traffic::YieldLine> yield_lines;           ///< Empty: no examiner (examiner.hpp).
-  std::shared_ptr<const GivenMotion> motion;             ///< Of the driver's car; null: somebody drives.
+  std::vector<traffic::YieldLine> yield_lines;            ///< Empty: no examiner (examiner.hpp).
+  std::shared_ptr<const GivenMotion> motion;              ///< Of the driver's car; null: somebody drives.
   std::uint64_t seed = 1;
   /// Hash of the texts that it was read from: models with equal ones are equal. 0: it was not read from texts.
   std::uint64_t sources_hash = 0;

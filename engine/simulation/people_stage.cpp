@@ -18,8 +18,7 @@ traffic::PeopleAround around_of(const Model& model, const Participant& car, cons
                                 const std::vector<Participant>& vehicles, const State& state) {
   traffic::PeopleAround around;
   around.driver_eyes_m = car.world_from_vehicle * driver_eyes_m(vehicle_models()[car.model]);
-  around.keeps_left =
-      !model.roads.roads.empty() && model.roads.roads.front().rule == road::TrafficRule::left_hand;
+  around.keeps_left = !model.roads.roads.empty() && model.roads.roads.front().rule == road::TrafficRule::left_hand;
   around.lights = lights;
   around.vehicles = vehicles;
   if (model.obstacles) around.walls = &model.obstacles->walls();
@@ -80,10 +79,9 @@ void require_sound(StateReader& reader, const Model& model, const PeopleOfDrive&
   for (std::uint32_t k = 0; k < all.size(); ++k) {
     const traffic::Person& person = all[k];
     reader.require(is_person_of_swarm(person.id) && person.leader <= k && person.walk < walks &&
-                       (person.next_walk == traffic::no_walk || person.next_walk < walks) &&
-                       person.desired_mps > 0.0 && std::abs(person.at_m) < farthest_m &&
-                       std::abs(person.height_m) < farthest_m && glm::length(person.position_m) < farthest_m &&
-                       glm::length(person.velocity_mps) < farthest_m,
+                       (person.next_walk == traffic::no_walk || person.next_walk < walks) && person.desired_mps > 0.0 &&
+                       std::abs(person.at_m) < farthest_m && std::abs(person.height_m) < farthest_m &&
+                       glm::length(person.position_m) < farthest_m && glm::length(person.velocity_mps) < farthest_m,
                    wrong);
   }
 }

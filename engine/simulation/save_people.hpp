@@ -11,9 +11,9 @@ SEPTET_MEMBERS(PeopleWish, count, radius_m)
 namespace septet::traffic {
 // A person's looks and character were drawn when he came.
 SEPTET_MEMBER_GROUPS(Person, hashed(id), kept(paint, desired_mps, leader, beside_m, ways),
-                     hashed(outside, walk, forwards, next_walk, next_forwards, turns, at_m, left_m, position_m, height_m,
-                            velocity_mps, wanted_mps, heading_rad, turns_radps, strides, crosses, asks, waits_s,
-                            stuck_s))
+                     hashed(outside, walk, forwards, next_walk, next_forwards, turns, at_m, left_m, position_m,
+                            height_m, velocity_mps, wanted_mps, heading_rad, turns_radps, strides, crosses, asks,
+                            waits_s, stuck_s))
 SEPTET_MEMBERS(PeopleState, people, time_s, ticks, random)
 }  // namespace septet::traffic
 

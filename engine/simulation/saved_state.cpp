@@ -125,8 +125,8 @@ SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents
 // thrown ones, people, things that are gone, solids in motion, limited sights, a given motion, a game, an examiner and
 // guidance are hashed where there are any. Open crashes and sightings change nothing.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, bodies, thrown, open_crashes),
-                     hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
-                     left_out(scenario, traffic), kept(people), left_out(effects),
+                     hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks), left_out(scenario, traffic),
+                     kept(people), left_out(effects),
                      kept(gone, solid_motions, sights, sightings, motion, game, examiner, guidance, input),
                      hashed(diagnostics, touching))
 

@@ -149,8 +149,8 @@ std::vector<const Participant*> off_lanes(const State& state, const std::vector<
 
 void begin_throws(const Model& model, const Participant& car, const std::vector<Participant>& participants,
                   State& state, std::vector<Event>& events) {
-  const std::vector<const Participant*> few = state.people.empty() ? std::vector<const Participant*>{}
-                                                                   : off_lanes(state, participants);
+  const std::vector<const Participant*> few =
+      state.people.empty() ? std::vector<const Participant*>{} : off_lanes(state, participants);
   for (const Participant& other : participants) {
     if (!can_be_thrown(kind_of(other)) || is_thrown(state, other.id)) continue;
     std::vector<ThrownBody> bodies;

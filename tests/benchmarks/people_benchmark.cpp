@@ -29,8 +29,7 @@ void walkways_at_load(benchmark::State& bench) {
   const road::RoadNetwork network = shipped_town();
   const roadside::Obstacles obstacles(network, 1);
   const roadside::RaisedAreas raised(network);
-  for (auto _ : bench)
-    benchmark::DoNotOptimize(simulation::walkways_of(network, obstacles, raised, {}).walks.size());
+  for (auto _ : bench) benchmark::DoNotOptimize(simulation::walkways_of(network, obstacles, raised, {}).walks.size());
 }
 BENCHMARK(walkways_at_load)->Name("people_walkways")->Unit(benchmark::kMillisecond);
 
@@ -47,9 +46,8 @@ void update(benchmark::State& bench) {
   for (int tick = 0; tick < 7200; ++tick) advance_people(wish, graph, around, tick_s, people);
   for (auto _ : bench) advance_people(wish, graph, around, tick_s, people);
   bench.SetItemsProcessed(bench.iterations() * bench.range(0));
-  bench.counters["core_share"] =
-      benchmark::Counter(tick_s * static_cast<double>(bench.iterations()),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  bench.counters["core_share"] = benchmark::Counter(tick_s * static_cast<double>(bench.iterations()),
+                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(update)->Name("people_update")->Arg(100)->Arg(200)->Arg(500);
 

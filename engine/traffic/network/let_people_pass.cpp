@@ -10,9 +10,9 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double before_stretch_m = 1.0;   ///< From the line to the crossing.
-constexpr double beside_lane_m = 0.6;   ///< Who is that near to a lane is in it.
-constexpr double let_pass_mps2 = 2.5;   ///< Braking, at most, for who only waits.
+constexpr double before_stretch_m = 1.0;  ///< From the line to the crossing.
+constexpr double beside_lane_m = 0.6;     ///< Who is that near to a lane is in it.
+constexpr double let_pass_mps2 = 2.5;     ///< Braking, at most, for who only waits.
 constexpr double stops_mps2 = 2.0, starts_mps2 = 1.5, over_before_s = 1.0, drives_mps = 2.0;
 
 /// The stretch of a lane at a crossing; `lane` is driven on.
@@ -32,8 +32,7 @@ void add_stretch(const road::RoadNetwork& network, const CrossingPlace& place, s
   const road::LaneBorders borders = road::lane_borders(road, section, lane, place.s_m);
   const double low_t = std::min(borders.inner_t_m, borders.outer_t_m),
                high_t = std::max(borders.inner_t_m, borders.outer_t_m);
-  by_way[index].push_back(
-      {crossing, std::min(a, b), std::max(a, b), place.left_t_m - high_t, place.left_t_m - low_t});
+  by_way[index].push_back({crossing, std::min(a, b), std::max(a, b), place.left_t_m - high_t, place.left_t_m - low_t});
 }
 
 /// Time in which a vehicle has its rear beyond a place.
@@ -89,9 +88,8 @@ double stop_for_people_m(const LaneGraph& graph, const TownState& town, const To
       const double line_m = to_stretch_m - before_stretch_m;
       if (to_stretch_m < 0.0 || line_m > looks_m) continue;
       const auto there = std::ranges::equal_range(town.people, stretch.crossing, {}, &PersonCrossing::crossing);
-      if (std::ranges::any_of(there, [&](const PersonCrossing& person) {
-            return lets_pass(vehicle, stretch, line_m, person);
-          }))
+      if (std::ranges::any_of(
+              there, [&](const PersonCrossing& person) { return lets_pass(vehicle, stretch, line_m, person); }))
         return line_m;
     }
     begin_m += way.length_m;

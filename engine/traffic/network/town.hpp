@@ -91,9 +91,9 @@ struct TownState {
   std::vector<TownVehicle> vehicles;
   double time_s = 0.0;
   std::vector<PersonCrossing> people;  ///< The caller's, of this tick: those at crossings, by crossing.
-  std::vector<LimitedSight> sights;   ///< The caller's, of this tick.
-  sight::OpticalDepth air;            ///< The same.
-  std::vector<ViewOpening> openings;  ///< Of this tick.
+  std::vector<LimitedSight> sights;    ///< The caller's, of this tick.
+  sight::OpticalDepth air;             ///< The same.
+  std::vector<ViewOpening> openings;   ///< Of this tick.
   TownErrors errors;
   std::uint64_t claims = 0;              ///< Given so far.
   std::vector<double> foreign_stands_s;  ///< One a foreign vehicle.

@@ -10,9 +10,9 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double start_up_s = 3.0;           ///< HCM 2010: start-up and end clearance.
-constexpr double right_of_way_s = 1.0;       ///< The same where who walks has right of way.
-constexpr double gentle_mps2 = 1.8;          ///< Braking on which people count where they have right of way.
+constexpr double start_up_s = 3.0;      ///< HCM 2010: start-up and end clearance.
+constexpr double right_of_way_s = 1.0;  ///< The same where who walks has right of way.
+constexpr double gentle_mps2 = 1.8;     ///< Braking on which people count where they have right of way.
 constexpr double looks_m = 90.0, turns_in_m = 22.0, stands_mps = 0.3, creeps_mps = 1.5;
 constexpr double beside_band_m = 0.6, impatient_s = 30.0;
 
@@ -25,13 +25,15 @@ bool leaves_gap(const SeenVehicle& vehicle, const Vec2& middle_m, const Vec2& ac
   const Vec2 normal(-across.y, across.x);
   const double ahead_m = glm::dot(from, normal), beside_m = glm::dot(from, across);
   const double along_cos = std::abs(glm::dot(vehicle.heading, normal));
-  const double reach_m = along_cos * vehicle.half_length_m + std::sqrt(1.0 - along_cos * along_cos) * vehicle.half_width_m;
+  const double reach_m =
+      along_cos * vehicle.half_length_m + std::sqrt(1.0 - along_cos * along_cos) * vehicle.half_width_m;
   const double mps = glm::length(vehicle.velocity_mps);
   const double half_across_m = 0.5 * length_m + 0.5;
   const bool is_on_band = std::abs(ahead_m) < reach_m + half_m * 0.5 && std::abs(beside_m) < half_across_m;
   if (mps < stands_mps) return !is_on_band;
   if (is_on_band) return false;
-  const double closing_mps = ahead_m > 0.0 ? -glm::dot(vehicle.velocity_mps, normal) : glm::dot(vehicle.velocity_mps, normal);
+  const double closing_mps =
+      ahead_m > 0.0 ? -glm::dot(vehicle.velocity_mps, normal) : glm::dot(vehicle.velocity_mps, normal);
   double gap_m = std::abs(ahead_m) - reach_m - half_m, towards_mps = closing_mps;
   if (closing_mps < 0.5 * mps) {
     // It comes round a corner, if at all.
@@ -86,7 +88,8 @@ bool may_cross(const WalkwayGraph& graph, const Crossing& crossing, bool from_le
   constexpr double level_m = 3.0;
   return std::ranges::all_of(vehicles, [&](const SeenVehicle& vehicle) {
     if (std::abs(vehicle.height_m - person.height_m) > level_m) return true;
-    return leaves_gap(vehicle, middle_m, from_left ? across : -across, length_m, crossing.place.half_m, needed_s, zebra);
+    return leaves_gap(vehicle, middle_m, from_left ? across : -across, length_m, crossing.place.half_m, needed_s,
+                      zebra);
   });
 }
 

@@ -62,8 +62,8 @@ void turn_and_step(double dt_s, Person& person) {
   const double mps = glm::length(person.velocity_mps);
   double wanted = person.heading_rad;
   if (mps > 0.2) wanted = std::atan2(person.velocity_mps.y, person.velocity_mps.x);
-  const double turn = std::clamp(road::wrap_angle(wanted - person.heading_rad), -most_turn_radps * dt_s,
-                                 most_turn_radps * dt_s);
+  const double turn =
+      std::clamp(road::wrap_angle(wanted - person.heading_rad), -most_turn_radps * dt_s, most_turn_radps * dt_s);
   person.turns_radps = turn / dt_s;
   person.heading_rad = road::wrap_angle(person.heading_rad + turn);
   const double strides = person.strides + dt_s * strides_hz(mps > steps_from_mps ? mps : 0.0);
@@ -80,13 +80,13 @@ void look(const WalkwayGraph& graph, const PeopleAround& around, double since_s,
     if (aim.stands) {
       person.wanted_mps = Vec2(0.0);
       person.stuck_s = 0.0;
-      person.heading_rad += std::clamp(road::wrap_angle(std::atan2(aim.faces.y, aim.faces.x) - person.heading_rad),
-                                       -0.3, 0.3);
+      person.heading_rad +=
+          std::clamp(road::wrap_angle(std::atan2(aim.faces.y, aim.faces.x) - person.heading_rad), -0.3, 0.3);
       continue;
     }
     constexpr double stuck_mps = 0.25, back_s = 14.0;
     person.stuck_s = glm::length(person.velocity_mps) < stuck_mps ? person.stuck_s + since_s
-                                                                   : std::max(0.0, person.stuck_s - 2.0 * since_s);
+                                                                  : std::max(0.0, person.stuck_s - 2.0 * since_s);
     if (person.stuck_s > back_s && !person.crosses) {
       turn_back(person);
       person.stuck_s = 0.0;

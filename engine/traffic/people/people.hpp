@@ -45,8 +45,9 @@ struct Person {
   double desired_mps = 1.34;  ///< A group's members have one.
   /// The first of his group, by index; a group's members follow each other in the list.
   std::uint32_t leader = 0;
-  double beside_m = 0.0;      ///< His place in the breadth of a ribbon: from the middle, to the left of his way, by half widths.
-  std::uint64_t ways = 0;     ///< From it and `turns` his way follows; a group's members have one.
+  double beside_m =
+      0.0;  ///< His place in the breadth of a ribbon: from the middle, to the left of his way, by half widths.
+  std::uint64_t ways = 0;  ///< From it and `turns` his way follows; a group's members have one.
 
   bool outside = true;  ///< Waits for a place where he can come in; he is nowhere.
   WalkIndex walk = 0;
@@ -80,10 +81,10 @@ struct PeopleState {
 struct PeopleAround {
   Vec3 driver_eyes_m{0.0};
   bool keeps_left = false;
-  std::span<const TrafficLight> lights;    ///< As they show, in the order of WalkwaySurroundings.
-  std::span<const Participant> vehicles;   ///< Any that are no people of this swarm. Read at ticks of looks alone.
-  const sight::Walls* walls = nullptr;     ///< May be null.
-  std::span<const std::uint32_t> gone;     ///< Things whose walls do not stand.
+  std::span<const TrafficLight> lights;   ///< As they show, in the order of WalkwaySurroundings.
+  std::span<const Participant> vehicles;  ///< Any that are no people of this swarm. Read at ticks of looks alone.
+  const sight::Walls* walls = nullptr;    ///< May be null.
+  std::span<const std::uint32_t> gone;    ///< Things whose walls do not stand.
 };
 
 PeopleState populate_people(const PeopleWish& wish, const WalkwayGraph& graph, const PeopleAround& around,

@@ -129,8 +129,7 @@ Aim aim_of(const WalkwayGraph& graph, const PeopleAround& around, const std::vec
   Person& person = people.people[index];
   if (person.next_walk == no_walk) choose_next(graph, person);
   const Walk& until_now = graph.walks[person.walk];
-  if (gone_m(until_now, person.forwards, person.at_m) >= leaves_at_m(graph, person))
-    enter_next(graph, person);
+  if (gone_m(until_now, person.forwards, person.at_m) >= leaves_at_m(graph, person)) enter_next(graph, person);
   // A way that leads against the side to which people keep is theirs all the same: `beside_m` is from it.
   const double beside = around.keeps_left ? -person.beside_m : person.beside_m;
   const Walk& walk = graph.walks[person.walk];
@@ -155,8 +154,7 @@ Aim aim_of(const WalkwayGraph& graph, const PeopleAround& around, const std::vec
     const bool follows = person.leader != index && !leader.outside && leader.walk == person.walk &&
                          leader.forwards == person.forwards && leader.crosses;
     const bool lit = crossing.kind == Crossing::Kind::light;
-    person.crosses =
-        (follows && !lit) || may_cross(graph, crossing, person.forwards, around, vehicles, person);
+    person.crosses = (follows && !lit) || may_cross(graph, crossing, person.forwards, around, vehicles, person);
   }
   if (person.crosses) {
     const bool late = crossing.kind == Crossing::Kind::light &&

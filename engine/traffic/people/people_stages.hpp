@@ -67,8 +67,7 @@ Vec2 step_to(const WalkwayGraph& graph, const std::vector<SeenVehicle>& vehicles
              std::uint32_t index, const Aim& aim, double side, const PeopleState& people);
 
 /// People who are far leave, and come in where the driver does not see it.
-void recycle_people(const PeopleWish& wish, const WalkwayGraph& graph, const PeopleAround& around,
-                    PeopleState& people);
+void recycle_people(const PeopleWish& wish, const WalkwayGraph& graph, const PeopleAround& around, PeopleState& people);
 
 /// Half widths that a person's middle may be from the middle of a ribbon.
 inline double usable_half_m(double half_m) { return half_m - half_person_m > 0.42 ? half_m - half_person_m : 0.42; }

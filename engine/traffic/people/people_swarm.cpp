@@ -45,7 +45,8 @@ Places places_within(const WalkwayGraph& graph, const Vec2& middle_m, double rad
 bool is_clear(const PeopleState& people, const Vec2& at_m) {
   constexpr double clear_m = 1.2;
   return std::ranges::none_of(people.people, [&](const Person& other) {
-    return !other.outside && glm::distance(other.position_m, at_m) < clear_m * (other.velocity_mps == Vec2(0.0) ? 0.7 : 1.0);
+    return !other.outside &&
+           glm::distance(other.position_m, at_m) < clear_m * (other.velocity_mps == Vec2(0.0) ? 0.7 : 1.0);
   });
 }
 
@@ -120,8 +121,7 @@ void try_to_enter(const WalkwayGraph& graph, const PeopleAround& around, const P
 /// A group of one to three; those who walk beside each other keep 0.85 m apart where the ribbon is that wide.
 void add_group(std::uint32_t most, PeopleState& people) {
   const double drawn = people.random.uniform();
-  const std::uint32_t size =
-      std::min(most, drawn < alone_share ? 1u : drawn < alone_share + pairs_share ? 2u : 3u);
+  const std::uint32_t size = std::min(most, drawn < alone_share ? 1u : drawn < alone_share + pairs_share ? 2u : 3u);
   const double mps = std::clamp(mean_mps + deviation_mps * people.random.normal(), slowest_mps, fastest_mps) *
                      (1.0 - slower_in_group * (size - 1));
   const std::uint64_t ways = people.random.next_bits();
@@ -170,9 +170,8 @@ void recycle_people(const PeopleWish& wish, const WalkwayGraph& graph, const Peo
   for (std::uint32_t k = 0; k < people.people.size(); ++k) {
     if (people.people[k].leader != k) continue;
     const auto is_one = [&](const Person& other) { return other.leader == k; };
-    const bool all_outside = std::ranges::all_of(people.people, [&](const Person& other) {
-      return !is_one(other) || other.outside;
-    });
+    const bool all_outside =
+        std::ranges::all_of(people.people, [&](const Person& other) { return !is_one(other) || other.outside; });
     for (int attempt = 0; all_outside && people.people[k].outside && attempt < tries; ++attempt)
       try_to_enter(graph, around, places, wish.radius_m, seen_to_m, k, people);
   }

@@ -55,9 +55,9 @@ WalkPoint point_of(const road::RoadNetwork& network, const WalkwaySurroundings& 
   point.middle_m = ground_at(network, around, index, s_m, t);
   point.half_m = half;
   const double reach = 0.5 * half;
-  point.rises = (ground_at(network, around, index, s_m, t + reach).z -
-                 ground_at(network, around, index, s_m, t - reach).z) /
-                (2.0 * reach);
+  point.rises =
+      (ground_at(network, around, index, s_m, t + reach).z - ground_at(network, around, index, s_m, t - reach).z) /
+      (2.0 * reach);
   return point;
 }
 
@@ -98,8 +98,8 @@ double half_extent_m(const road::RoadObject& object) {
   const double cosine = std::cos(object.heading_rad), sine = std::sin(object.heading_rad);
   for (const road::Outline& outline : object.outlines)
     for (const road::OutlineCorner& corner : outline.corners) {
-      const double s = corner.in_road_coordinates ? corner.s_or_u_m - object.s_m
-                                                  : cosine * corner.s_or_u_m - sine * corner.t_or_v_m;
+      const double s =
+          corner.in_road_coordinates ? corner.s_or_u_m - object.s_m : cosine * corner.s_or_u_m - sine * corner.t_or_v_m;
       low = std::min(low, s), high = std::max(high, s);
     }
   const double extent_m =

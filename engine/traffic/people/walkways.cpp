@@ -217,8 +217,7 @@ OnWalk locate_on_walk(const WalkwayGraph& graph, const Walk& walk, const Vec2& p
     return std::pair(distance, OnWalk{points[k].at_m + along_m, side < 0.0 ? -distance : distance});
   };
   const auto beyond = std::ranges::upper_bound(points, near_m, {}, &WalkPoint::at_m);
-  std::size_t k =
-      std::clamp<std::size_t>(static_cast<std::size_t>(beyond - points.begin()), 1, points.size() - 1) - 1;
+  std::size_t k = std::clamp<std::size_t>(static_cast<std::size_t>(beyond - points.begin()), 1, points.size() - 1) - 1;
   auto best = part_from(k);
   // Downhill in both directions, with a look across one part that is no nearer.
   for (const int step : {1, -1}) {

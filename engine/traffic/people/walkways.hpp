@@ -58,12 +58,12 @@ struct Crossing {
   };
   Kind kind = Kind::zebra;
   CrossingPlace place;
-  WalkIndex walk = 0;      ///< It begins on the pavement to the left of the road.
-  Vec2 left_kerb_m{0.0};   ///< Ends of the carriageway.
+  WalkIndex walk = 0;     ///< It begins on the pavement to the left of the road.
+  Vec2 left_kerb_m{0.0};  ///< Ends of the carriageway.
   Vec2 right_kerb_m{0.0};
   double left_at_m = 0.0;  ///< The kerbs' places along the walk.
   double right_at_m = 0.0;
-  WalkRange heads;         ///< Of a light: indices of heads, in `WalkwayGraph::heads`.
+  WalkRange heads;  ///< Of a light: indices of heads, in `WalkwayGraph::heads`.
 };
 
 /// A trunk, a pole, or the like, in or beside a ribbon.

@@ -11,7 +11,8 @@ TEST_CASE("a wish for people is read in any order, with what it leaves out as us
 }
 
 TEST_CASE("a wish for people of another form, or out of range, is refused") {
-  for (const char* text : {"40", "count=", "count=-1", "count=1001", "radius_m=10", "radius_m=nan", "people=4", "count=4,"})
+  for (const char* text :
+       {"40", "count=", "count=-1", "count=1001", "radius_m=10", "radius_m=nan", "people=4", "count=4,"})
     CHECK_MESSAGE(!read_people_wish(text).has_value(), text);
 }
 

@@ -22,7 +22,7 @@ inline WalkwayGraph walkways(const road::RoadNetwork& network) {
 }
 
 struct PeopleRun {
-  double nearest_m = 1e9;       ///< Least distance of two outlines' middles.
+  double nearest_m = 1e9;  ///< Least distance of two outlines' middles.
   double longest_stuck_s = 0.0;
   double walked_m = 0.0, person_s = 0.0;
   std::uint32_t crossings_begun = 0;

@@ -28,11 +28,10 @@ TEST_CASE("two hundred people walk ten minutes through no other, and no jam of t
     PeopleState people = populate_people(wish, graph, around, 7);
     const PeopleRun run = run_people(graph, wish, around, 600.0, people);
     const double there = run.person_s / 600.0, mean_mps = run.walked_m / run.person_s;
-    MESSAGE(there << " people, mean " << mean_mps << " m/s, nearest "
-                                 << run.nearest_m << " m, longest stuck " << run.longest_stuck_s << " s, "
-                                 << run.crossings_begun << " crossings; " << graph.walks.size() << " walks, "
-                                 << graph.crossings.size() << " crossings, " << graph.nodes.size() << " nodes, "
-                                 << graph.posts.size() << " posts");
+    MESSAGE(there << " people, mean " << mean_mps << " m/s, nearest " << run.nearest_m << " m, longest stuck "
+                  << run.longest_stuck_s << " s, " << run.crossings_begun << " crossings; " << graph.walks.size()
+                  << " walks, " << graph.crossings.size() << " crossings, " << graph.nodes.size() << " nodes, "
+                  << graph.posts.size() << " posts");
     CHECK(run.person_s > 600.0 * 170.0);
     CHECK(run.nearest_m > apart_m - 1e-6);
     CHECK(run.longest_stuck_s < 20.0);
