@@ -172,7 +172,7 @@ TEST_CASE(
         };
         if (std::ranges::any_of(met_ns, is_known)) continue;
         met_ns.push_back(told.on_second_ns);
-        instant[0].position_m = -told.first_arm_m, instant[1].position_m = -told.second_arm_m;
+        instant[0].mass_centre_m = -told.first_arm_m, instant[1].mass_centre_m = -told.second_arm_m;
         const auto again = impact::impulse_at(instant[0], instant[1], {Vec2(0.0), pulse.normal},
                                               {pulse.restitution, impact::vehicle_friction(), told.stopped_mps});
         REQUIRE(again.has_value());
