@@ -148,8 +148,11 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
   PreparedFrame frame;
   frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);
   PreparedSmoke smoke{drawn_smoke(instant.smoke, instant.headlights, eye_m), {}};
-  if (casts_shadows(*instant.light))
-    smoke.shade = prepare_smoke_shade(context, smoke.drawn.puffs, scene.summary, frame.shadows);
+  if (!smoke.drawn.puffs.empty()) {
+    smoke.shade.shade = smoke_shade(smoke.drawn.puffs, scene.summary, frame.shadows);
+    shade_smoke(smoke.drawn, smoke.shade.shade);
+    if (casts_shadows(*instant.light)) smoke.shade.moments = store_smoke_shade(context, smoke.shade.shade);
+  }
   if (road_mirrors(instant))
     frame.road_mirror =
         prepare_road_mirror(context, scene, instant, frame.shadows, smoke.shade, dynamic, lamps, width, height);

@@ -141,6 +141,14 @@ struct Shade {
 
 enum class Sky : std::uint8_t { black, blue };
 
+void darken_sky(instant::Instant& instant) {
+  instant::SkyLight light = *instant.light;
+  light.sky_irradiance = light.ground_irradiance = glm::vec3(0.0f);
+  light.irradiance = light.street_irradiance = {};
+  light.table.radiance.assign(light.table.radiance.size(), glm::vec3(0.0f));
+  instant.light = std::make_shared<const instant::SkyLight>(light);
+}
+
 template <typename Draw>
 Shade shade_on_ground(Sky sky, float albedo, float depth, const Draw& draw) {
   scene::SurfaceMaterial material;
@@ -154,13 +162,7 @@ Shade shade_on_ground(Sky sky, float albedo, float depth, const Draw& draw) {
   input.environment.sun_elevation_rad = 0.7;
   instant::Instant instant = instant::describe(input, instant::summarise(scene));
   instant.extinction_per_m = 0.0f;
-  if (sky == Sky::black) {
-    instant::SkyLight light = *instant.light;
-    light.sky_irradiance = light.ground_irradiance = glm::vec3(0.0f);
-    light.irradiance = light.street_irradiance = {};
-    light.table.radiance.assign(light.table.radiance.size(), glm::vec3(0.0f));
-    instant.light = std::make_shared<const instant::SkyLight>(light);
-  }
+  if (sky == Sky::black) darken_sky(instant);
   const Picture clear = draw(scene, instant);
   Random random(9);
   const Vec3 middle_m = Vec3(8.0, 0.0, 0.0) + 15.0 * Vec3(instant.light->light_direction);
@@ -177,6 +179,32 @@ Shade shade_on_ground(Sky sky, float albedo, float depth, const Draw& draw) {
     shade.least_share = std::min(shade.least_share, double(smoky[n].g) / double(clear[n].g));
   }
   return shade;
+}
+
+/// Radiance of thick smoke by day, at its middle, from the front.
+template <typename Draw>
+double thick_smoke(double sun_azimuth_rad, float albedo, const Draw& draw) {
+  // Nothing but smoke and sky is in view.
+  const scene::ResolvedScene scene = instant::lone_mesh({}, instant::wide_wall(), {Vec3(0.0, 0.0, -9e4)});
+  instant::FrameInput input = forward();
+  input.environment.cloud_cover = 0.0;
+  input.environment.sun_elevation_rad = 0.7;
+  input.environment.sun_azimuth_rad = sun_azimuth_rad;
+  Random random(9);
+  for (std::uint32_t i = 0; i < 600; ++i) {
+    SmokePuff puff = black_puff(
+        Vec3(18.0, 0.0, 0.0) + 4.0 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)), 0.8f,
+        0.2f, i);
+    puff.albedo = glm::vec3(albedo);
+    input.smoke.push_back(puff);
+  }
+  instant::Instant instant = instant::describe(input, instant::summarise(scene));
+  instant.extinction_per_m = 0.0f;
+  const Picture picture = draw(scene, instant);
+  double sum = 0.0;
+  for (std::uint32_t y = 26; y < 38; ++y)
+    for (std::uint32_t x = 42; x < 54; ++x) sum += double(picture[std::size_t{y} * smoke_width_px + x].g) / 144.0;
+  return sum;
 }
 
 }  // namespace
@@ -225,6 +253,17 @@ TEST_CASE("the ground below smoke loses as much of the sun in the rasteriser as 
       const double of_loss = sky == Sky::black ? 0.02 : 0.05;
       CHECK(1.0 - raster.with / raster.without == relative(1.0 - trace.with / trace.without, of_loss));
       CHECK(std::abs(raster.least_share - trace.least_share) < (sky == Sky::black ? 0.02 : 0.06));
+    }
+}
+
+TEST_CASE("thick smoke by day is as bright in the rasteriser as in the ray tracer within a quarter, from three sides") {
+  for (const double azimuth_rad : {0.0, 1.57, 3.14})
+    for (const float albedo : {0.25f, 0.8f}) {
+      const double raster = thick_smoke(azimuth_rad, albedo, rastered),
+                   trace = thick_smoke(azimuth_rad, albedo, traced);
+      CAPTURE(azimuth_rad);
+      CAPTURE(albedo);
+      CHECK(raster == relative(trace, 0.27));
     }
 }
 

@@ -103,6 +103,22 @@ SmokeShade smoke_shade(std::span<const SmokePuff> puffs, const SceneSummary& sce
   return shade;
 }
 
+DepthsInSmoke depths_in(const SmokeShade& shade, const Vec3& place_m) {
+  if (shade.moments.empty()) return {};
+  const glm::vec3 from_corner(place_m - shade.corner_m);
+  const glm::vec2 at =
+      glm::vec2(glm::dot(from_corner, shade.right), glm::dot(from_corner, shade.up)) / shade.texel_m - 0.5f;
+  const glm::vec2 low = glm::floor(at), share = at - low;
+  constexpr int side = light::smoke_shade_side;
+  const int x = static_cast<int>(low.x), y = static_cast<int>(low.y);
+  if (x < 0 || y < 0 || x >= side - 1 || y >= side - 1) return {};
+  const glm::vec4* first = &shade.moments[static_cast<std::size_t>(y * side + x)];
+  const glm::vec3 moments(
+      glm::mix(glm::mix(first[0], first[1], share.x), glm::mix(first[side], first[side + 1], share.x), share.y));
+  const float to_light = light::smoke_above(moments, glm::dot(from_corner, shade.to_light));
+  return {to_light, moments.x - to_light};
+}
+
 void set_smoke_shade(ViewUniforms& uniforms, const SmokeShade& shade, const Vec3& eye_m) {
   if (shade.moments.empty()) return;
   const Vec3 from_corner = eye_m - shade.corner_m;
@@ -116,12 +132,9 @@ void set_smoke_shade(ViewUniforms& uniforms, const SmokeShade& shade, const Vec3
   uniforms.smoke_shade_height = row(shade.to_light, 1.0, 0.0);
 }
 
-PreparedSmokeShade prepare_smoke_shade(PassContext& context, std::span<const SmokePuff> puffs,
-                                       const SceneSummary& scene, const ShadowCascades& shadows) {
-  PreparedSmokeShade prepared{smoke_shade(puffs, scene, shadows), {}};
-  if (!prepared.shade.moments.empty())
-    prepared.moments = store(context, std::span<const glm::vec4>(prepared.shade.moments));
-  return prepared;
+FrameData store_smoke_shade(PassContext& context, const SmokeShade& shade) {
+  if (shade.moments.empty()) return {};
+  return store(context, std::span<const glm::vec4>(shade.moments));
 }
 
 }  // namespace septet::render

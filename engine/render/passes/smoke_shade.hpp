@@ -31,15 +31,22 @@ struct SmokeShade {
 /// Shade of puffs within 300 m of the eye, on the axes of the light's cascades.
 SmokeShade smoke_shade(std::span<const SmokePuff> puffs, const SceneSummary& scene, const ShadowCascades& shadows);
 
+/// Optical depths of the shade's smoke from a place of the world towards the light and away from it.
+struct DepthsInSmoke {
+  float to_light = 0.0f, away = 0.0f;
+};
+DepthsInSmoke depths_in(const SmokeShade& shade, const Vec3& place_m);
+
 /// Sets the rows from places relative to an eye to the map's texels.
 void set_smoke_shade(ViewUniforms& uniforms, const SmokeShade& shade, const Vec3& eye_m);
 
-/// Shade of a frame, and its moments in the frame's arena: no buffer where no shade would be seen.
+/// Copies the moments into the frame's arena: no buffer for an empty shade.
+FrameData store_smoke_shade(PassContext& context, const SmokeShade& shade);
+
+/// Shade of a frame, and its moments in the arena: no buffer where no surface is shaded.
 struct PreparedSmokeShade {
   SmokeShade shade;
   FrameData moments;
 };
-PreparedSmokeShade prepare_smoke_shade(PassContext& context, std::span<const SmokePuff> puffs,
-                                       const SceneSummary& scene, const ShadowCascades& shadows);
 
 }  // namespace septet::render

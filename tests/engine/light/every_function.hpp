@@ -165,7 +165,9 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
       return vec4(mapped_normal(vec3(b.x, b.y, b.z), one, other, direction_of(b.w, a.x)), 0.0f);
     case 55u:
       return vec4(normal_share(8.0f * a.x - 4.0f),
-                  below_smoke(3.0f * a.y * vec3(1.0f, a.z, a.z * a.z + 0.1f + a.w), 4.0f * b.x - 2.0f), 0.0f, 0.0f);
+                  below_smoke(3.0f * a.y * vec3(1.0f, a.z, a.z * a.z + 0.1f + a.w), 4.0f * b.x - 2.0f),
+                  smoke_above(3.0f * a.y * vec3(1.0f, a.z, a.z * a.z + 0.1f + a.w), 4.0f * b.x - 2.0f),
+                  sun_within_smoke(3.0f * b.y, 3.0f * b.z + 0.1f, b.w) + around_within_smoke(3.0f * b.y, b.w));
     default:
       return vec4(0.0f);
   }
