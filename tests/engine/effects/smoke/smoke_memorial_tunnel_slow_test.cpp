@@ -3,8 +3,6 @@
 /// (github.com/conorfleming/memorial_tunnel_bl_analysis, 2020). Back-layering is "yes" over 61 m, "no" under 12 m.
 /// docs/smoke.md has the table, and two fires of more power, whose layers are too long here.
 
-#include <cmath>
-#include <cstddef>
 #include <vector>
 
 #include <doctest/doctest.h>
