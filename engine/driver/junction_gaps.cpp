@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/world/participant_shape.hpp"
 
@@ -21,7 +22,7 @@ using traffic::WayIndex;
 constexpr double junction_sight_m = 90.0, others_within_m = 110.0;
 constexpr double horizon_s = 9.0, hardest_to_wait_mps2 = 6.0;
 constexpr double stands_mps = 0.5, sets_off_s = 1.0, drives_off_mps2 = 1.3;
-constexpr double between_s = 1.0;            ///< Between one who crosses and the other.
+constexpr double between_s = 1.8;            ///< Between one who crosses and the other.
 constexpr double stops_before_line_m = 0.8, past_line_m = 1.5;
 constexpr double unmarked_mps = 7.0, yielding_mps = 6.0;  ///< Towards a line before which one may have to wait.
 constexpr double slows_mps2 = 1.2;
@@ -120,7 +121,49 @@ bool meets(const Mine& mine, const WayConflict& conflict, const OnWay& other, do
   return in_s < until_s + between_s + doubt_s && out_s > from_s - between_s;
 }
 
+/// Distance from a point to a body's box in plan.
+double distance_to_box(const VehicleModel& shape, const Vec2& middle_m, double heading_rad,
+                       const Vec2& point_m) {
+  const Vec2 along(std::cos(heading_rad), std::sin(heading_rad)), across(-along.y, along.x);
+  const Vec2 apart = point_m - middle_m;
+  const double past_m = std::max(0.0, std::abs(glm::dot(apart, along)) - 0.5 * shape.length_m);
+  const double beside_m = std::max(0.0, std::abs(glm::dot(apart, across)) - 0.5 * shape.width_m);
+  return std::hypot(past_m, beside_m);
+}
+
 }  // namespace
+
+std::optional<double> crossed_at_m(const traffic::Corridor& corridor, const road::RoadNetwork& network,
+                                   std::span<const Participant> around, ParticipantId self, const OwnPlace& own,
+                                   int lane) {
+  constexpr double ahead_m = 14.0, step_m = 1.0, air_m = 0.4, across_rad = 0.35, slowest_mps = 3.0;
+  const auto body = std::ranges::find(around, self, &Participant::id);
+  if (body == around.end()) return std::nullopt;
+  const double v = std::max(own.speed_mps, slowest_mps);
+  for (double at_m = 0.5; at_m <= ahead_m; at_m += step_m) {
+    const double x_m = own.x_m + own.front_m + at_m;
+    if (x_m >= corridor.length_m || !traffic::lane_open(network, corridor, x_m, lane)) return std::nullopt;
+    const road::LanePoint path = road::evaluate_lane(network, traffic::position_at(corridor, x_m, lane));
+    const double in_s = at_m / v;
+    for (const Participant& other : around) {
+      if (other.id == self) continue;
+      if (glm::distance(other.world_from_vehicle.position_m, path.road.position_m) > 25.0) continue;
+      const VehicleModel shape = shape_of(other);
+      const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
+      const double turned_rad = other.angular_velocity_radps.z * in_s;
+      const double heading_rad = std::atan2(heads.y, heads.x);
+      if (std::abs(road::wrap_angle(heading_rad - path.driving_heading_rad)) < across_rad) continue;
+      const double mps = glm::length(Vec2(other.velocity_mps));
+      const double mean_rad = heading_rad + 0.5 * turned_rad;
+      const Vec2 middle_m = Vec2(other.world_from_vehicle * Vec3(shape.centre_x_m(), 0.0, 0.0)) +
+                            mps * in_s * Vec2(std::cos(mean_rad), std::sin(mean_rad));
+      if (distance_to_box(shape, middle_m, heading_rad + turned_rad, Vec2(path.road.position_m)) <
+          own.half_width_m + air_m)
+        return x_m - 1.0;
+    }
+  }
+  return std::nullopt;
+}
 
 void look_at_junction(JunctionState& state, RouteAhead& ahead, const traffic::Corridor& corridor,
                       const CourseParameters& course, const road::RoadNetwork& network,

@@ -22,6 +22,7 @@ struct JunctionState {
   double speed_mps = std::numeric_limits<double>::infinity();  ///< Allowed by what is not in view before the line.
   std::size_t stood_before = 0;      ///< Step of the junction before whose stop line the car has stood.
   double waited_s = 0.0;             ///< Standing at the line.
+  std::optional<double> crossed_at_m;  ///< x at which somebody comes across, within a junction.
   bool waits() const { return waits_at_m.has_value(); }
 };
 
@@ -30,5 +31,11 @@ void look_at_junction(JunctionState& state, RouteAhead& ahead, const traffic::Co
                       const CourseParameters& course, const road::RoadNetwork& network,
                       std::span<const Participant> around, ParticipantId self, const OwnPlace& own,
                       std::span<const SeenVehicle> vehicles, double judgement, double dt_s);
+
+/// x at which somebody who comes across is, or will be when the car's front is there; empty: nobody is within the next
+/// metres of the driver's path.
+std::optional<double> crossed_at_m(const traffic::Corridor& corridor, const road::RoadNetwork& network,
+                                   std::span<const Participant> around, ParticipantId self, const OwnPlace& own,
+                                   int lane);
 
 }  // namespace septet::driver

@@ -1,6 +1,7 @@
 #include "engine/driver/route_ahead.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -159,6 +160,14 @@ WantedLane wanted_lane(RouteAhead& ahead, const traffic::Corridor& corridor, dou
   while (last + 1 < corridor.pieces.size() && !in_junction(last + 1)) ++last;
   const traffic::CorridorPiece& before = corridor.pieces[last];
   return {std::abs(before.lane) + before.lane_shift, before.x_m + before.length_m - x_m};
+}
+
+bool is_at_junction(const RouteAhead& ahead, const traffic::Corridor& corridor, double x_m) {
+  constexpr double near_m = 8.0;
+  return std::ranges::any_of(std::array{x_m, x_m + near_m}, [&](double at_m) {
+    const auto piece = static_cast<std::size_t>(&traffic::piece_at(corridor, at_m) - corridor.pieces.data());
+    return ahead.graph->ways[ahead.route.steps[ahead.first + piece].enters].in_junction();
+  });
 }
 
 }  // namespace septet::driver

@@ -46,4 +46,7 @@ struct WantedLane {
 };
 WantedLane wanted_lane(RouteAhead& ahead, const traffic::Corridor& corridor, double x_m);
 
+/// True within a junction of the route and a few metres before it.
+bool is_at_junction(const RouteAhead& ahead, const traffic::Corridor& corridor, double x_m);
+
 }  // namespace septet::driver

@@ -105,6 +105,11 @@ std::optional<Obstacle> obstacle_ahead(const SimulatedDriver& driver, LaneScene 
   auto vehicle = obstacle_on_way(driver.lanes, scene, driver.parameters.speed);
   const auto line = line_ahead(driver.course, scene.own, driver.parameters.speed);
   if (line && wish_mps2(line) < wish_mps2(vehicle)) vehicle = line;
+  if (driver.junction.crossed_at_m) {
+    const double gap_m = *driver.junction.crossed_at_m - scene.own.x_m - scene.own.front_m;
+    const std::optional<Obstacle> across = Obstacle{gap_m + 0.5 * driver.parameters.speed.standstill_gap_m, 0.0};
+    if (wish_mps2(across) < wish_mps2(vehicle)) vehicle = across;
+  }
   if (driver.junction.waits_at_m) {
     const double left_m = *driver.junction.waits_at_m - scene.own.x_m - scene.own.front_m;
     const std::optional<Obstacle> at_junction = Obstacle{left_m + driver.parameters.speed.standstill_gap_m, 0.0};
@@ -207,6 +212,10 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
       look_at_junction(driver.junction, driver.route, *driver.corridor, driver.parameters.course, network,
                        driver.known.bodies, body->id, *own, driver.vehicles, driver.course.judgement.value,
                        look_around_interval_s);
+    driver.junction.crossed_at_m =
+        driver.corridor->is_route && is_at_junction(driver.route, *driver.corridor, own->x_m)
+            ? crossed_at_m(*driver.corridor, network, driver.known.bodies, body->id, *own, own->lane)
+            : std::nullopt;
     const LaneChoiceParameters& lanes = driver.parameters.lanes;
     if (driver.lanes.phase == LanePhase::keep && lanes.in_tracks_within_m > 0.0)
       look_at_tracks(driver.tracks, *driver.corridor, *own, driver.vehicles, lanes.in_tracks_within_m,

@@ -100,7 +100,7 @@ Expected<GuidedRoute> decode_guided_route(std::span<const std::byte> bytes) {
   if (ends_cm > 100 * most_distance_m) in.fail();
   route.ends_m = 0.01 * static_cast<double>(ends_cm);
   const std::uint64_t count = in.get_varint();
-  if (count > most_guided_sections || count > in.remaining()) in.fail();
+  if (count == 0 || count > most_guided_sections || count > in.remaining()) in.fail();
   for (std::uint64_t i = 0; in.ok() && i < count; ++i) {
     GuidedSection& section = route.sections.emplace_back();
     const std::uint64_t road = in.get_varint(), number = in.get_varint();
