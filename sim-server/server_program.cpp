@@ -120,8 +120,7 @@ Expected<Attendance> gather(const ServerOptions& options, const ServeOptions& se
     all.list.push_back(std::make_unique<Sound>(
         SoundSources{rig, drive.loaded.model, drive.session ? &*drive.session : nullptr, drive.store}, drive.live));
   if (drive.live && host && !options.no_sound && !options.lockstep)
-    all.list.push_back(
-        std::make_unique<GuidanceVoice>(Speaker(program::find_program("espeak-ng")), options.language));
+    all.list.push_back(std::make_unique<GuidanceVoice>(Speaker(program::find_program("espeak-ng")), options.language));
   if (screens) all.list.push_back(std::make_unique<OperatorLines>(drive, *host, all.log, all.gate.get()));
   if (screens || drive.live)
     all.list.push_back(std::make_unique<SceneEdits>(drive, host, all.log, all.gate.get(), options.save));

@@ -76,7 +76,8 @@ Lamps light_at(const Snapshot& snapshot, const traffic::YieldLine& line) {
 
 /// The lane's path beyond a line.
 std::vector<Vec2> way_at(const CourseLine& ahead, const road::RoadNetwork& network, const OwnPlace& own) {
-  if (ahead.lane != 0) return traffic::way_beyond(network, ahead.line.kind, {ahead.line.road, ahead.lane, ahead.line.s_m, 0.0});
+  if (ahead.lane != 0)
+    return traffic::way_beyond(network, ahead.line.kind, {ahead.line.road, ahead.lane, ahead.line.s_m, 0.0});
   const int lane = ahead.line.along_s ? -own.lane : own.lane;
   const bool right_hand = network.roads[ahead.line.road].rule == road::TrafficRule::right_hand;
   return traffic::way_beyond(network, ahead.line.kind,
@@ -161,8 +162,8 @@ CourseState read_course(const road::RoadNetwork& network, const traffic::Corrido
     for (const traffic::YieldLine& line : lines) {
       if (line.road != piece.road || line.along_s != piece.along_s) continue;
       // On a route give-way lines are minded with all else that has right of way (junction_gaps.hpp).
-      if (corridor.is_route && (line.kind == LineKind::give_way || line.s_m < piece.from_s_m ||
-                                line.s_m > piece.from_s_m + piece.length_m))
+      if (corridor.is_route &&
+          (line.kind == LineKind::give_way || line.s_m < piece.from_s_m || line.s_m > piece.from_s_m + piece.length_m))
         continue;
       const double x_m = traffic::x_on_piece(piece, line.s_m);
       const bool is_last = k + 1 == corridor.pieces.size();

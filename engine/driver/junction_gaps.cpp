@@ -22,11 +22,11 @@ using traffic::WayIndex;
 constexpr double junction_sight_m = 90.0, others_within_m = 110.0;
 constexpr double horizon_s = 9.0, hardest_to_wait_mps2 = 6.0;
 constexpr double stands_mps = 0.5, sets_off_s = 1.0, drives_off_mps2 = 1.3;
-constexpr double between_s = 1.8;            ///< Between one who crosses and the other.
+constexpr double between_s = 1.8;  ///< Between one who crosses and the other.
 constexpr double stops_before_line_m = 0.8, past_line_m = 1.5;
 constexpr double unmarked_mps = 7.0, yielding_mps = 6.0;  ///< Towards a line before which one may have to wait.
 constexpr double slows_mps2 = 1.2;
-constexpr double patience_s = 12.0;        ///< Then those who stand as well are not waited for any more.
+constexpr double patience_s = 12.0;  ///< Then those who stand as well are not waited for any more.
 constexpr double room_at_exit_m = 7.0, crawling_mps = 2.0;
 constexpr int ways_back = 6;
 
@@ -48,8 +48,8 @@ std::vector<OnWay> others_on_ways(const LaneGraph& graph, const road::RoadNetwor
     const Vec2 middle_m(other.world_from_vehicle * Vec3(shape.centre_x_m(), 0.0, 0.0));
     for (const traffic::PlaceOnLane& place :
          traffic::lanes_under(graph, network, middle_m, std::atan2(heads.y, heads.x)))
-      others.push_back({place.way, place.at_m, 0.5 * shape.length_m,
-                        glm::length(Vec2(other.velocity_mps)), other.lamps});
+      others.push_back(
+          {place.way, place.at_m, 0.5 * shape.length_m, glm::length(Vec2(other.velocity_mps)), other.lamps});
   }
   return others;
 }
@@ -89,14 +89,15 @@ double seconds_for(double metres, double speed_mps) {
   if (metres <= 0.0) return 0.0;
   const double from = std::max(0.0, speed_mps), top = std::max(turn_mps, from);
   const double gain_m = (top * top - from * from) / (2.0 * drives_off_mps2);
-  const double moving_s = metres < gain_m ? (std::sqrt(from * from + 2.0 * drives_off_mps2 * metres) - from) / drives_off_mps2
-                                          : (top - from) / drives_off_mps2 + (metres - gain_m) / top;
+  const double moving_s = metres < gain_m
+                              ? (std::sqrt(from * from + 2.0 * drives_off_mps2 * metres) - from) / drives_off_mps2
+                              : (top - from) / drives_off_mps2 + (metres - gain_m) / top;
   return moving_s + (from < 1.0 ? sets_off_s : 0.0);
 }
 
 struct Mine {
-  double to_m = 0.0;       ///< From the car's front to the conflict.
-  double length_m = 0.0;   ///< Until its tail has left it.
+  double to_m = 0.0;      ///< From the car's front to the conflict.
+  double length_m = 0.0;  ///< Until its tail has left it.
   double speed_mps = 0.0;
 };
 
@@ -122,8 +123,7 @@ bool meets(const Mine& mine, const WayConflict& conflict, const OnWay& other, do
 }
 
 /// Distance from a point to a body's box in plan.
-double distance_to_box(const VehicleModel& shape, const Vec2& middle_m, double heading_rad,
-                       const Vec2& point_m) {
+double distance_to_box(const VehicleModel& shape, const Vec2& middle_m, double heading_rad, const Vec2& point_m) {
   const Vec2 along(std::cos(heading_rad), std::sin(heading_rad)), across(-along.y, along.x);
   const Vec2 apart = point_m - middle_m;
   const double past_m = std::max(0.0, std::abs(glm::dot(apart, along)) - 0.5 * shape.length_m);
@@ -216,7 +216,7 @@ void look_at_junction(JunctionState& state, RouteAhead& ahead, const traffic::Co
           if (other.way != conflict.with && signals_otherwise(other.lamps, his.turns_rad)) continue;
           const auto to_him_m = distance_to(graph, other, conflict.with, conflict.with_from_m);
           if (!to_him_m) continue;
-          if (state.waited_s > patience_s && other.speed_mps < stands_mps && *to_him_m - other.half_m > 0.0) continue;
+          if (state.waited_s > patience_s && other.speed_mps<stands_mps&& * to_him_m - other.half_m> 0.0) continue;
           must_wait = meets(way, conflict, other, *to_him_m, yields, waited, course, judgement);
         }
       }

@@ -18,10 +18,10 @@
 namespace septet::driver {
 
 struct JunctionState {
-  std::optional<double> waits_at_m;  ///< x of the line, for the car's front.
+  std::optional<double> waits_at_m;                            ///< x of the line, for the car's front.
   double speed_mps = std::numeric_limits<double>::infinity();  ///< Allowed by what is not in view before the line.
-  std::size_t stood_before = 0;      ///< Step of the junction before whose stop line the car has stood.
-  double waited_s = 0.0;             ///< Standing at the line.
+  std::size_t stood_before = 0;        ///< Step of the junction before whose stop line the car has stood.
+  double waited_s = 0.0;               ///< Standing at the line.
   std::optional<double> crossed_at_m;  ///< x at which somebody comes across, within a junction.
   bool waits() const { return waits_at_m.has_value(); }
 };

@@ -37,13 +37,13 @@ traffic::CorridorPiece piece_of_step(const traffic::LaneGraph& graph, const road
 }
 
 /// Steps on which the car may be: the first one from `from` on.
-std::optional<std::size_t> step_under(const RouteAhead& ahead, const road::RoadNetwork& network,
-                                      const Participant& car, std::size_t from) {
+std::optional<std::size_t> step_under(const RouteAhead& ahead, const road::RoadNetwork& network, const Participant& car,
+                                      std::size_t from) {
   const Vec3 heads = car.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
   const double heading_rad = std::atan2(heads.y, heads.x);
   for (const double forward_m : {middle_m, 0.0}) {
-    const auto under = traffic::lanes_under(
-        *ahead.graph, network, Vec2(car.world_from_vehicle.position_m + forward_m * heads), heading_rad);
+    const auto under = traffic::lanes_under(*ahead.graph, network,
+                                            Vec2(car.world_from_vehicle.position_m + forward_m * heads), heading_rad);
     for (std::size_t i = from; i < ahead.route.steps.size(); ++i)
       for (const traffic::PlaceOnLane& place : under)
         if (is_beside(ahead.graph->ways[place.way], ahead.graph->ways[ahead.route.steps[i].enters])) return i;

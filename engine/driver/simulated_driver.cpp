@@ -13,7 +13,7 @@ namespace septet::driver {
 namespace {
 
 constexpr double look_around_interval_s = 0.05;
-constexpr double all_snow_cover = 0.3;    ///< Cover from which a road counts as completely snowy.
+constexpr double all_snow_cover = 0.3;  ///< Cover from which a road counts as completely snowy.
 /// On a route: a lane open for this far may be changed to, and the goal is where the car's middle stands at the end.
 constexpr double room_to_change_m = 40.0, stops_past_goal_m = 5.0;
 constexpr double lane_preview_m = 300.0;  ///< A lane counts as open if it is so for this far.
@@ -88,7 +88,8 @@ double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork&
   const double unposted_mps = driver.corridor->is_route ? traffic::unposted_mps : speed.desired_speed_mps;
   const double dry = limit > 0.0 ? limit * speed.limit_factor : unposted_mps;
   const double snow = std::clamp(snow_cover / all_snow_cover, 0.0, 1.0);
-  const double wish = std::min(dry * (1.0 - snow * (1.0 - speed.on_snow)), std::min(driver.course.speed_mps, driver.junction.speed_mps));
+  const double wish = std::min(dry * (1.0 - snow * (1.0 - speed.on_snow)),
+                               std::min(driver.course.speed_mps, driver.junction.speed_mps));
   if (!sight_m) return wish;
   return std::min(
       wish, sight::stopping_speed_mps(*sight_m - speed.standstill_gap_m, speed.reaction_time_s, speed.braking_mps2));

@@ -42,8 +42,8 @@ void say(GuidanceWord word, double in_m, Tick tick, GuidanceState& guidance, std
   guidance.shown.told = word;
   ++guidance.shown.told_count;
   guidance.shown.told_at = tick;
-  std::string detail = fmt::format("word={} when={} in_m={:.0f}", name_of(word.what), word.now ? "now" : "soon",
-                                   std::max(0.0, in_m));
+  std::string detail =
+      fmt::format("word={} when={} in_m={:.0f}", name_of(word.what), word.now ? "now" : "soon", std::max(0.0, in_m));
   if (word.exit > 0) detail += fmt::format(" exit={}", word.exit);
   events.push_back({"guidance", driver_participant, std::move(detail)});
 }
@@ -145,7 +145,8 @@ void tell_turn(const Participant& car, Tick tick, GuidanceState& guidance, std::
   // Crossings that are passed without a word are told about no more than they must be.
   std::size_t index = guidance.turn;
   double clear_from_m = index > 0 ? guidance.turns[index - 1].ends_m : 0.0;
-  while (index + 1 < guidance.turns.size() && !guidance.turns[index].is_told) clear_from_m = guidance.turns[index++].ends_m;
+  while (index + 1 < guidance.turns.size() && !guidance.turns[index].is_told)
+    clear_from_m = guidance.turns[index++].ends_m;
   const traffic::RouteTurn& turn = guidance.turns[index];
   const bool is_goal = index + 1 == guidance.turns.size();
   const double to_go_m = turn.at_m - guidance.along_m;
@@ -196,8 +197,7 @@ Expected<void> guide_over(const Model& model, const std::vector<road::LanePositi
   for (const road::LanePosition& place : places) {
     std::vector<traffic::PlaceOnLane> lanes = traffic::lanes_at(*guidance.graph, model.roads, place.road, place.s_m);
     // A place in a lane is of its direction of travel.
-    const traffic::WayIndex meant =
-        traffic::way_at(*guidance.graph, model.roads, place.road, place.lane, place.s_m);
+    const traffic::WayIndex meant = traffic::way_at(*guidance.graph, model.roads, place.road, place.lane, place.s_m);
     if (meant != traffic::no_way)
       std::erase_if(lanes, [&](const traffic::PlaceOnLane& lane) {
         return !is_beside(guidance.graph->ways[lane.way], guidance.graph->ways[meant]);
@@ -262,8 +262,7 @@ bool complete_guidance(const Model& model, GuidanceState& guidance) {
 void append_guidance(const State& state, std::vector<EffectKeyframe>& effects) {
   if (!state.guidance) return;
   const GuidanceState& guidance = *state.guidance;
-  effects.push_back(
-      {guidance_effect_id, guidance_keyframe_kind, encode_guidance(guidance.shown), guidance.shown_at});
+  effects.push_back({guidance_effect_id, guidance_keyframe_kind, encode_guidance(guidance.shown), guidance.shown_at});
   GuidedRoute route;
   for (const traffic::RouteStep& step : guidance.route.steps) {
     const traffic::Way& way = guidance.graph->ways[step.enters];

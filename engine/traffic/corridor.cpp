@@ -106,7 +106,8 @@ const CorridorPiece* piece_of(const Corridor& corridor, const road::RoadPosition
   double least_m = 0.0;
   for (const CorridorPiece& piece : corridor.pieces) {
     if (piece.road != position.road) continue;
-    const double past_m = std::max({0.0, piece.from_s_m - position.s_m, position.s_m - piece.from_s_m - piece.length_m});
+    const double past_m =
+        std::max({0.0, piece.from_s_m - position.s_m, position.s_m - piece.from_s_m - piece.length_m});
     if (best && past_m >= least_m) continue;
     best = &piece;
     least_m = past_m;
@@ -132,8 +133,8 @@ double length_along_lane_m(const road::RoadNetwork& network, const Corridor& cor
     const double to_end = sign > 0.0 ? piece.length_m - begin : begin;
     const double part = std::min(left, to_end);
     const auto s = [&](double along) { return station_on(piece, along); };
-    sum += std::abs(road::length_along_lane_m(network, {piece.road, piece.side * (lane - piece.lane_shift), s(begin), 0.0},
-                                              s(begin + sign * part), step_m));
+    sum += std::abs(road::length_along_lane_m(
+        network, {piece.road, piece.side * (lane - piece.lane_shift), s(begin), 0.0}, s(begin + sign * part), step_m));
     left -= part;
     x = wrap_x(corridor, x + sign * std::max(part, nudge_m));
     if (sign < 0.0 && corridor.closed && x <= 0.0) x += corridor.length_m;

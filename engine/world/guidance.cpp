@@ -11,9 +11,9 @@ namespace septet {
 namespace {
 
 constexpr std::uint8_t guidance_version = 1, route_version = 1;
-constexpr std::array<std::string_view, 12> names{"straight_on", "left",       "right",     "bear_left",
-                                                 "bear_right",  "turn_back",  "roundabout", "keep_left",
-                                                 "keep_right",  "arrive",     "new_route",  "no_way"};
+constexpr std::array<std::string_view, 12> names{"straight_on", "left",      "right",      "bear_left",
+                                                 "bear_right",  "turn_back", "roundabout", "keep_left",
+                                                 "keep_right",  "arrive",    "new_route",  "no_way"};
 constexpr std::uint8_t most_exits = 99;
 constexpr std::uint64_t most_distance_m = 1'000'000, most_lane = 1000;
 constexpr std::uint64_t most_count = std::numeric_limits<std::uint32_t>::max();

@@ -125,8 +125,8 @@ std::vector<instant::OverlayText> guidance_texts(const Snapshot& shown, const ri
     texts.back().centered = true;
   };
   add(guidance_arrow(*guidance), first_px, height_px);
-  const bool is_fresh = shown.tick >= guidance->told_at &&
-                        static_cast<double>(shown.tick - guidance->told_at) < read_s * ticks_ps;
+  const bool is_fresh =
+      shown.tick >= guidance->told_at && static_cast<double>(shown.tick - guidance->told_at) < read_s * ticks_ps;
   if (guidance->told_count > 0 && is_fresh)
     add(guidance_sentence(guidance->told, "en"), first_px + height_px + 6.0, std::round(0.7 * height_px));
   return texts;

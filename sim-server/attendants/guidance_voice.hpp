@@ -15,8 +15,7 @@ namespace septet::server {
 
 class GuidanceVoice final : public Attendant {
  public:
-  GuidanceVoice(Speaker speaker, std::string language)
-      : speaker_(std::move(speaker)), language_(std::move(language)) {}
+  GuidanceVoice(Speaker speaker, std::string language) : speaker_(std::move(speaker)), language_(std::move(language)) {}
 
   void before_tick(const Moment& moment) override;
   void after_tick(const std::shared_ptr<const TakenSnapshot>& tick, double shaking_share) override;

@@ -49,7 +49,7 @@ struct StepResult {
   std::optional<PeopleWish> people;           ///< Who is to walk around the driver's car.
   /// Routes of the entity that is moved from outside: the places that it is to be guided over.
   std::vector<std::vector<road::LanePosition>> guided;
-  std::vector<std::string> stopped_traffic;   ///< Names of swarms to be ended.
+  std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
   std::vector<BegunHazard> hazards;
   std::vector<EntityIndex> left;   ///< Entities that came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> reset;  ///< Entities with NaN or infinite numbers: they stand.

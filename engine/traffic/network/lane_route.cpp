@@ -46,7 +46,8 @@ struct Search {
   std::priority_queue<std::pair<double, Node>, std::vector<std::pair<double, Node>>, std::greater<>> open;
 
   explicit Search(const LaneGraph& of)
-      : graph(&of), best_s(2 * of.ways.size(), std::numeric_limits<double>::infinity()),
+      : graph(&of),
+        best_s(2 * of.ways.size(), std::numeric_limits<double>::infinity()),
         before(2 * of.ways.size(), no_node) {}
 
   Node count() const { return static_cast<Node>(graph->ways.size()); }

@@ -50,7 +50,7 @@ std::optional<LaneRoute> plan_route_over(const LaneGraph& graph, const PlaceOnLa
 /// The lanes that hold a point and lead about where a body heads, the one that does so best first: in a junction there
 /// are several. Empty: off all lanes, or against their traffic.
 std::vector<PlaceOnLane> lanes_under(const LaneGraph& graph, const road::RoadNetwork& network, const Vec2& world_m,
-                                      double heading_rad);
+                                     double heading_rad);
 
 /// All driving lanes of a road at a station.
 std::vector<PlaceOnLane> lanes_at(const LaneGraph& graph, const road::RoadNetwork& network, road::RoadIndex road,

@@ -92,9 +92,7 @@ TEST_CASE("a body stands in the lane that leads where it heads") {
   }
 }
 
-TEST_CASE("ten routes of 5 km in the own town hold together") {
-  drives_ten_routes(own_town());
-}
+TEST_CASE("ten routes of 5 km in the own town hold together") { drives_ten_routes(own_town()); }
 
 TEST_CASE("ten routes of 5 km in each public town hold together") {
   drives_ten_routes(public_town("Town01"));
