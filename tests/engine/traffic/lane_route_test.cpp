@@ -10,6 +10,7 @@
 #include "tests/engine/traffic/crossing_road.hpp"
 #include "tests/engine/traffic/public_town.hpp"
 #include "tests/engine/traffic/ten_routes.hpp"
+#include "tests/relative.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::traffic {
@@ -70,7 +71,7 @@ TEST_CASE("a goal is named by a road's name or id, a station on it, or a place o
   const auto at_place = goal_of(graph, network, std::to_string(there.x) + "," + std::to_string(there.y));
   REQUIRE(at_place.size() == 2);
   CHECK(at_place[0].way == at_station[0].way);
-  CHECK(at_place[0].at_m == doctest::Approx(at_station[0].at_m).epsilon(0.01));
+  CHECK(at_place[0].at_m == relative(at_station[0].at_m, 0.01));
   for (const char* wrong : {"", "Nowhere", "1:1e9", "1:-1", "1:", "90000,90000", "nan,1", "1:nan"}) {
     CAPTURE(wrong);
     CHECK_FALSE(find_goal(graph, network, wrong).has_value());
