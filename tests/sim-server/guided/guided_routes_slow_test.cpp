@@ -11,10 +11,9 @@ TEST_CASE("the driver reaches ten goals in the own town without a collision or a
           500.0);
 }
 
-TEST_CASE("the driver reaches goals in each public town without a collision or a wrong turn") {
+TEST_CASE("the driver reaches goals in a public town without a collision or a wrong turn") {
   const TemporaryFolder folder;
   reaches(public_town_drive("Town01", folder), {"1", "3", "5", "10", "17", "22"}, 400.0);
-  reaches(public_town_drive("Town03", folder), {"18", "24", "74"}, 400.0);
 }
 
 }  // namespace septet::server
