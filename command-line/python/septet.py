@@ -395,6 +395,7 @@ class World:
         self._asked: dict[int, Future[Any]] = {}
         self._requests = 0
         self._news = threading.Condition()
+        self._writing = threading.Lock()  # Held while a pipe may be full; the thread that empties the other one needs `_news` alone.
         self._ticks: collections.deque[Tick] = collections.deque()
         self._stepped: Optional[Tick] = None
         self._handlers: dict[str, list[Callable[..., Any]]] = {"tick": [], "end": [], "message": []}
@@ -677,11 +678,12 @@ class World:
 
     def _ask(self, lines: list[str]) -> Future[Any]:
         answer: Future[Any] = Future()
-        with self._news:
-            if self.why_ended is not None or self._process.stdin is None or self._process.stdin.closed:
-                raise Ended(self.why_ended or "the connection is closed")
-            self._requests += 1
-            self._asked[self._requests] = answer
+        with self._writing:
+            with self._news:
+                if self.why_ended is not None or self._process.stdin is None or self._process.stdin.closed:
+                    raise Ended(self.why_ended or "the connection is closed")
+                self._requests += 1
+                self._asked[self._requests] = answer
             try:
                 self._process.stdin.write("\n".join(lines) + "\n")
                 self._process.stdin.flush()

@@ -3,11 +3,12 @@ import contextlib
 import io
 import pathlib
 import sys
+import threading
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "command-line/python"))
 import septet  # noqa: E402
 
-#: It answers each request after it has told a tick; while it tells of a batch it reads nothing, as the product's does not.
+#: It answers each request after it has told a tick; at a batch's beginning it tells a megabyte of them, and reads nothing meanwhile.
 PROGRAM = '''
 import json, sys
 request, tick, is_in_batch, tells = 0, 0, False, False
@@ -21,16 +22,18 @@ def tell_tick():
 say(type="hello", participants={})
 for line in sys.stdin:
     words = line.split()
+    tells = tells or words[0] == "ticks"
     if tells:
         tell_tick()
     if words[0] == "begin":
+        for _ in range(2000 if tells else 0):
+            tell_tick()
         is_in_batch = True
         continue
     if is_in_batch and words[0] != "commit":
         continue
     is_in_batch = False
     request += 1
-    tells = tells or words[0] == "ticks"
     say(type="answer", request=request, ok=True, tick=tick, messages=["12 triangles"] if words[0] == "import" else [])
 say(type="end", why="all lines are done")
 '''
@@ -51,8 +54,23 @@ def what_a_handler_raises_is_printed_and_the_connection_goes_on() -> None:
             raise RuntimeError("of the script")
         world.on("end")(late)
         assert world._ask(["hide a"]).result(60) and world._ask(["hide a"]).result(60)
-    assert len(heard) == 3 and said.getvalue().count("RuntimeError: of the script") == 3, (heard, said.getvalue())
+    assert len(heard) == 4 and said.getvalue().count("RuntimeError: of the script") == 4, (heard, said.getvalue())
     assert world.why_ended == "all lines are done"
 
 
+def a_batch_of_megabytes_is_written_while_ticks_are_told() -> None:
+    with connected() as world:
+        next(world.ticks())
+        def write() -> None:
+            with world.batch():
+                for _ in range(1000):
+                    world._change("tag " + "x" * 4000)
+        writer = threading.Thread(target=write, daemon=True)
+        writer.start()
+        writer.join(60)
+        assert not writer.is_alive()
+        assert world.newest.tick > 2000
+
+
 what_a_handler_raises_is_printed_and_the_connection_goes_on()
+a_batch_of_megabytes_is_written_while_ticks_are_told()
