@@ -25,7 +25,7 @@ import tempfile
 import threading
 import traceback
 from concurrent.futures import Future
-from typing import Any, AsyncIterator, Callable, Iterable, Iterator, Optional, Sequence, Union
+from typing import Any, AsyncIterator, Callable, Iterable, Iterator, NamedTuple, Optional, Sequence, Union
 
 __all__ = ["connect", "World", "Handle", "Batch", "Tick", "Event", "Call", "Car", "Participant", "Refused", "Failure", "Ended"]
 
@@ -40,6 +40,13 @@ MOST_EVENTS_KEPT = 10_000
 Solid = Union[bool, float]
 Parent = Union[int, str, "Participant", "Car", "Handle"]
 """A participant, by its number, the scenario's name or as a tick has it; or a thing."""
+
+
+class _Done(NamedTuple):
+    """Of a request: the first tick that shows it, and what is said of it."""
+
+    tick: int
+    messages: list[str]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -260,6 +267,8 @@ class Handle:
         """`node` is its word in a line; `name` is as events and calls name it: #NUMBER where it has no name of its own."""
         self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
         self._solid: Solid = False
+        self.messages: list[str] = []
+        """What add() has said of its file: the size by axes, and a sentence for each thing that is left out. In a batch: Batch.messages."""
 
     def __repr__(self) -> str:
         return f"<septet.Handle {self.node} at {self._position}>"
@@ -362,7 +371,7 @@ class Batch:
 
     def __init__(self, world: World, at_tick: Optional[int]) -> None:
         self._world, self._at_tick, self._lines = world, at_tick, []  # type: World, Optional[int], list[str]
-        self._answer: Optional[Future[int]] = None
+        self._answer: Optional[Future[_Done]] = None
 
     def __enter__(self) -> Batch:
         if self._world._batch is not None:
@@ -381,9 +390,17 @@ class Batch:
 
     def result(self, timeout_s: float = 60.0) -> int:
         """The first tick that shows them; waits for it. Raises Refused."""
+        return self._done(timeout_s).tick
+
+    @property
+    def messages(self) -> list[str]:
+        """What is said of the files that it has added, in their order, as of Handle.messages. Waits as result() does."""
+        return self._done(60.0).messages
+
+    def _done(self, timeout_s: float) -> _Done:
         if self._answer is None:
             raise RuntimeError("the batch is empty, or not closed yet")
-        return int(self._answer.result(timeout_s))
+        return self._answer.result(timeout_s)
 
 
 class World:
@@ -481,7 +498,7 @@ class World:
 
         Raises Refused where there is none, or somebody else has changed one of its things since. Handles do not notice it.
         """
-        return int(self._ask(["undo"]).result(60.0))
+        return int(self._ask(["undo"]).result(60.0).tick)
 
     def save(self, file: Path) -> None:
         """Writes what differs from the world as it was when this script came, for `septet drive --edits`."""
@@ -493,7 +510,7 @@ class World:
         """A line of an operator's, as docs/editing.md has them; the tick after which it was done."""
         if "\n" in line:
             raise ValueError("a line has no end within")
-        return int(self._ask([f"operate {line}"]).result(60.0))
+        return int(self._ask([f"operate {line}"]).result(60.0).tick)
 
     def call(self, name: str, node: Optional[Union["Handle", str]] = None, **parameters: Any) -> int:
         """One message to all who listen to the drive, about a thing or none: call("lift", node="stimuli/barrier", seconds=3).
@@ -502,7 +519,7 @@ class World:
         """
         about = "none" if node is None else node.node if isinstance(node, Handle) else _word(node)
         words = [_word(f"{key}={value}") for key, value in parameters.items()]
-        return int(self._ask([" ".join(["call", about, _word(name), *words])]).result(60.0))
+        return int(self._ask([" ".join(["call", about, _word(name), *words])]).result(60.0).tick)
 
     def mark(self, text: str) -> int:
         """A mark in the log, at this tick."""
@@ -653,17 +670,18 @@ class World:
             lines.append(f"hang {_word(name)} {_who(parent)}")
         if solid is not False:
             lines.append(f"solid {_word(name)}{_solid(solid)}")
-        self._change(*lines)
+        messages = self._change(*lines)
         made = Handle(self, _word(name), name, position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
-        made._solid = solid
+        made._solid, made.messages = solid, messages
         return made
 
-    def _change(self, *lines: str) -> None:
-        """One line, or several that are one batch."""
+    def _change(self, *lines: str) -> list[str]:
+        """One line, or several that are one batch; returns what is said of them."""
         if self._batch is not None:
             self._batch.extend(lines)
-        else:
-            self._ask(list(lines) if len(lines) == 1 else ["begin", *lines, "commit"]).result(60.0)
+            return []
+        done: _Done = self._ask(list(lines) if len(lines) == 1 else ["begin", *lines, "commit"]).result(60.0)
+        return done.messages
 
     def _file(self, content: Union[Path, bytes], ending: str) -> str:
         if not isinstance(content, bytes):
@@ -763,7 +781,7 @@ class World:
             elif kind == "lines":
                 answer.set_result(row["lines"])
             elif row["ok"]:
-                answer.set_result(row["tick"])
+                answer.set_result(_Done(row["tick"], row["messages"]))
             else:
                 failures = [Failure(one["line"], one["text"], one["node"], one["why"]) for one in row["failures"]]
                 answer.set_exception(Refused(failures, row["others"]))

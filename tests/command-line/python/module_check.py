@@ -28,13 +28,17 @@ for line in sys.stdin:
     if words[0] == "begin":
         for _ in range(2000 if tells else 0):
             tell_tick()
+        messages = []
         is_in_batch = True
         continue
+    said = ["12 triangles of " + words[1]] if words[0] == "import" else []
     if is_in_batch and words[0] != "commit":
+        messages += said
         continue
+    said = messages if is_in_batch else said
     is_in_batch = False
     request += 1
-    say(type="answer", request=request, ok=True, tick=tick, messages=["12 triangles"] if words[0] == "import" else [])
+    say(type="answer", request=request, ok=True, tick=tick, messages=said)
 say(type="end", why="all lines are done")
 '''
 
@@ -72,5 +76,17 @@ def a_batch_of_megabytes_is_written_while_ticks_are_told() -> None:
         assert world.newest.tick > 2000
 
 
+def what_is_said_of_a_file_reaches_the_script() -> None:
+    with connected() as world:
+        ball = world.add("ball", "ball.glb")
+        assert ball.messages == ['12 triangles of "ball"'], ball.messages
+        ball.visible = False
+        with world.batch() as batch:
+            assert world.add("cup", "cup.glb", lifetime_s=2).messages == []
+            world.add("plate", "plate.glb")
+        assert batch.messages == ['12 triangles of "cup"', '12 triangles of "plate"'], batch.messages
+
+
 what_a_handler_raises_is_printed_and_the_connection_goes_on()
 a_batch_of_megabytes_is_written_while_ticks_are_told()
+what_is_said_of_a_file_reaches_the_script()
