@@ -227,6 +227,22 @@ class _Every:
         return True
 
 
+class _Backlog:
+    """Ticks that wait for one loop, the newest `MOST_TICKS_KEPT`."""
+
+    def __init__(self) -> None:
+        self.ticks: collections.deque[Tick] = collections.deque()
+
+    def keep(self, tick: Tick) -> int:
+        """Returns how many are dropped; their events go to the next."""
+        self.ticks.append(tick)
+        if len(self.ticks) <= MOST_TICKS_KEPT:
+            return 0
+        self.ticks[1] = _joined(self.ticks[0], self.ticks[1])
+        self.ticks.popleft()
+        return 1
+
+
 def _word(text: str) -> str:
     """The text as one quoted word of a line."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
@@ -413,7 +429,8 @@ class World:
         self._requests = 0
         self._news = threading.Condition()
         self._writing = threading.Lock()  # Held while a pipe may be full; the thread that empties the other one needs `_news` alone.
-        self._ticks: collections.deque[Tick] = collections.deque()
+        self._waiting = _Backlog()  # For the loop that begins next, as long as there is no loop.
+        self._loops: list[_Backlog] = []
         self._stepped: Optional[Tick] = None
         self._handlers: dict[str, list[Callable[..., Any]]] = {"tick": [], "end": [], "message": []}
         self._call_handlers: list[tuple[Optional[str], Optional[str], Callable[[Call], Any]]] = []
@@ -562,24 +579,32 @@ class World:
     # ---- ticks
 
     def ticks(self, every: int = 1) -> Iterator[Tick]:
-        """Each tick as it comes, or every n-th, until the drive ends. For one that was missed the next that comes stands in, and has its events."""
-        self._want_ticks()
-        chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
-        while (tick := self._next_tick()) is not None:
-            tick = _joined(passed, tick)
-            passed = None if (taken := chosen.takes(tick.tick)) else tick
-            if taken:
-                yield tick
+        """Each tick as it comes, or every n-th, until the drive ends. For one that was missed the next that comes stands in, and has its events.
+
+        Loops beside each other each have all ticks from their beginning on."""
+        backlog = self._begin_loop()
+        try:
+            chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
+            while (tick := self._next_tick(backlog)) is not None:
+                tick = _joined(passed, tick)
+                passed = None if (taken := chosen.takes(tick.tick)) else tick
+                if taken:
+                    yield tick
+        finally:
+            self._end_loop(backlog)
 
     async def aticks(self, every: int = 1) -> AsyncIterator[Tick]:
         """The same for asyncio."""
-        self._want_ticks()
-        chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
-        while (tick := await asyncio.get_running_loop().run_in_executor(None, self._next_tick)) is not None:
-            tick = _joined(passed, tick)
-            passed = None if (taken := chosen.takes(tick.tick)) else tick
-            if taken:
-                yield tick
+        backlog = self._begin_loop()
+        try:
+            chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
+            while (tick := await asyncio.get_running_loop().run_in_executor(None, self._next_tick, backlog)) is not None:
+                tick = _joined(passed, tick)
+                passed = None if (taken := chosen.takes(tick.tick)) else tick
+                if taken:
+                    yield tick
+        finally:
+            self._end_loop(backlog)
 
     def on(self, what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
         """`@world.on("tick")`, "end", "message": called in the connection's own thread; such a handler must not change the world. What one raises is printed."""
@@ -714,10 +739,24 @@ class World:
             self._tells_ticks = True
             self._ask(["ticks on"])
 
-    def _next_tick(self) -> Optional[Tick]:
+    def _begin_loop(self) -> _Backlog:
+        self._want_ticks()
         with self._news:
-            self._news.wait_for(lambda: self._ticks or self.why_ended is not None)
-            return self._ticks.popleft() if self._ticks else None
+            backlog, self._waiting = self._waiting, _Backlog()
+            self._loops.append(backlog)
+        return backlog
+
+    def _end_loop(self, backlog: _Backlog) -> None:
+        """What it leaves waits for the next loop, unless another one has it already."""
+        with self._news:
+            self._loops.remove(backlog)
+            if not self._loops:
+                self._waiting = backlog
+
+    def _next_tick(self, backlog: _Backlog) -> Optional[Tick]:
+        with self._news:
+            self._news.wait_for(lambda: backlog.ticks or self.why_ended is not None)
+            return backlog.ticks.popleft() if backlog.ticks else None
 
     def _read_errors(self) -> None:
         assert self._process.stderr
@@ -755,11 +794,8 @@ class World:
             with self._news:
                 self.newest = tick
                 self._stepped = _joined(self._stepped, tick)
-                if len(self._ticks) == MOST_TICKS_KEPT:
-                    self._ticks[1] = _joined(self._ticks[0], self._ticks[1])
-                    self._ticks.popleft()
-                    self.missed_ticks += 1
-                self._ticks.append(tick)
+                for backlog in self._loops or [self._waiting]:
+                    self.missed_ticks += backlog.keep(tick)
                 self._news.notify_all()
             if self._calls is not None:
                 for call in tick.calls:

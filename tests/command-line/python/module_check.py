@@ -1,4 +1,5 @@
 """What the module does by itself, against a program that speaks as `septet edit --json` does: module_check.py."""
+import asyncio
 import contextlib
 import io
 import pathlib
@@ -87,6 +88,30 @@ def what_is_said_of_a_file_reaches_the_script() -> None:
         assert batch.messages == ['12 triangles of "cup"', '12 triangles of "plate"'], batch.messages
 
 
+def loops_beside_each_other_have_all_ticks_and_a_later_one_those_that_wait() -> None:
+    async def take(world: septet.World, most: int) -> list:
+        taken = []
+        async for tick in world.aticks(every=2):
+            taken.append(tick.tick)
+            if len(taken) == most:
+                return taken
+        return taken
+
+    async def take_both(world: septet.World) -> list:
+        async def change() -> None:
+            for _ in range(8):
+                await asyncio.get_running_loop().run_in_executor(None, world._ask, ["hide a"])
+        return (await asyncio.gather(take(world, 3), take(world, 3), change()))[:2]
+
+    with connected() as world:
+        first, second = asyncio.run(asyncio.wait_for(take_both(world), 60))
+        # Either begins first, so the tick that answers the request for ticks may be one's alone.
+        assert first == second == [2, 4, 6], (first, second)
+        assert next(world.ticks()).tick == 7
+        assert next(world.ticks()).tick == 8
+
+
 what_a_handler_raises_is_printed_and_the_connection_goes_on()
 a_batch_of_megabytes_is_written_while_ticks_are_told()
 what_is_said_of_a_file_reaches_the_script()
+loops_beside_each_other_have_all_ticks_and_a_later_one_those_that_wait()
