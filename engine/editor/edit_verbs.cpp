@@ -18,6 +18,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/editor/shapes.hpp"
+#include "engine/editor/shown_pose.hpp"
 #include "engine/gltf/gltf.hpp"
 #include "engine/image/png.hpp"
 #include "engine/image/srgb.hpp"
@@ -517,7 +518,7 @@ void forget_destroyed(EditNames& names, std::span<const Command> batch) {
     }
 }
 
-Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store) {
+Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store, const Snapshot& now) {
   constexpr std::string_view usage = "find [NAME] [type TYPE] [tag GROUP.TAG] [near X Y METRES]";
   constexpr std::size_t most = 1000;
   constexpr std::array types{"object", "geometry", "material", "bitmap"};
@@ -546,9 +547,11 @@ Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, co
     const auto* object = std::get_if<ObjectData>(&node.data);
     if (type.empty() ? !object : type != types[static_cast<std::size_t>(node.type())]) continue;
     if (!matches(pattern, node.name) || (!group.empty() && !find_tag(node, group, tag))) continue;
-    if (near && (!object || std::hypot(object->transform.position_m.x - (*near)[0],
-                                       object->transform.position_m.y - (*near)[1]) > (*near)[2]))
-      continue;
+    if (near && !object) continue;
+    if (near) {
+      const Vec3 at_m = shown_pose(node, now).position_m;
+      if (std::hypot(at_m.x - (*near)[0], at_m.y - (*near)[1]) > (*near)[2]) continue;
+    }
     found.push_back(id);
     if (found.size() == most) break;
   }

@@ -15,6 +15,7 @@
 #include "engine/scene/command.hpp"
 #include "engine/scene/command_text.hpp"
 #include "engine/scene/store.hpp"
+#include "engine/world/snapshot.hpp"
 
 namespace septet::editor {
 
@@ -56,8 +57,9 @@ void forget_destroyed(EditNames& names, std::span<const scene::Command> batch);
 /// A place: nothing, X Y Z, or X Y Z HEADING_DEG. Empty: other words.
 std::optional<scene::Transform> transform_of(std::span<const scene::TextWord> words);
 
-/// The nodes that `find` means: a pattern of names (* and ?), then `type TYPE`, `tag GROUP.TAG`, `near X Y METRES`. At most
-/// a thousand.
-Expected<std::vector<scene::NodeId>> found_nodes(const std::vector<scene::TextWord>& words, const scene::Store& store);
+/// The nodes that `find` means: a pattern of names (* and ?), then `type TYPE`, `tag GROUP.TAG`, `near X Y METRES`, which
+/// counts from where things are at `now`. At most a thousand.
+Expected<std::vector<scene::NodeId>> found_nodes(const std::vector<scene::TextWord>& words, const scene::Store& store,
+                                                 const Snapshot& now);
 
 }  // namespace septet::editor

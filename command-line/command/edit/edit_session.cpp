@@ -297,9 +297,10 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
     output_.done(++requests_, 0, {});
   } else if (verb == "find") {
     const std::uint64_t request = ++requests_;
-    const auto found = editor::found_nodes(words, client_.store());
+    const Snapshot at = now();
+    const auto found = editor::found_nodes(words, client_.store(), at);
     if (found)
-      output_.nodes(request, *found, names());
+      output_.nodes(request, *found, names(), at);
     else
       refuse(request, line, describe(found.error()));
   } else if (verb == "read") {

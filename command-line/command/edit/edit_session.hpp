@@ -17,6 +17,7 @@
 #include "engine/editor/edit_verbs.hpp"
 #include "engine/replication/message.hpp"
 #include "engine/scene/constants_told.hpp"
+#include "engine/world/snapshot.hpp"
 
 namespace septet::server {
 
@@ -77,6 +78,11 @@ class EditSession {
     std::vector<scene::Command> removal;
   };
 
+  /// The newest tick, with everybody's place; before the first one, nobody.
+  Snapshot now() const {
+    const auto& ticks = client_.link().history();
+    return ticks.empty() ? Snapshot{} : ticks.newest().snapshot;
+  }
   scene::TextNames names() const { return {client_.store(), names_.own_ids, nullptr, &names_.fresh}; }
   void add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words);
   void send(Batch batch);

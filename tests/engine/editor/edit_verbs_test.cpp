@@ -22,6 +22,7 @@
 #include "engine/scene/edit_file.hpp"
 #include "engine/scene/inverse.hpp"
 #include "engine/scene/solid_box.hpp"
+#include "engine/world/solid.hpp"
 
 namespace septet::editor {
 namespace {
@@ -32,6 +33,7 @@ constexpr scene::NodeId own_ids = 1000;
 struct EditedWorld {
   scene::Store store;
   EditNames names{own_ids, own_ids};
+  Snapshot now{};
 
   Expected<EditedLine> take(std::string_view line) {
     auto edit = edit_of(scene::words_of(line).value(), store, names);
@@ -40,7 +42,7 @@ struct EditedWorld {
     return edit;
   }
   std::vector<std::string> find(std::string_view what) const {
-    const auto found = found_nodes(scene::words_of(fmt::format("find {}", what)).value(), store);
+    const auto found = found_nodes(scene::words_of(fmt::format("find {}", what)).value(), store, now);
     REQUIRE(found.has_value());
     std::vector<std::string> called;
     called.reserve(found->size());
@@ -82,6 +84,29 @@ TEST_CASE("what lies within so many metres of a place is found, whatever its hei
   CHECK(editor.find("near 0 0 5") == Names{"at"});
   CHECK(editor.find("* near 0 0 6") == Names{"at", "beyond"});
   CHECK(editor.find("b* near 0 0 6") == Names{"beyond"});
+}
+
+TEST_CASE("what goes or was pushed is found where it is at the tick, and no more where it was placed") {
+  EditedWorld world;
+  REQUIRE(world.take("create box 10 0 1"));
+  REQUIRE(world.take("create ball 0 0 0"));
+  REQUIRE(world.take("go ball 10 0 0"));
+  world.now.simulated_time_s = 2.0;
+  CHECK(world.find("* near 20 0 0.1") == Names{"ball"});
+  CHECK(world.find("ball near 0 0 0.1").empty());
+
+  const scene::NodeId box = world.names.fresh.find("box")->second;
+  REQUIRE(world.take("solid box 20"));
+  REQUIRE(world.store.apply(scene::TagSet{box, 0xFF00, 2, {"participant", first_solid_participant}}));
+  REQUIRE(world.store.apply(scene::TagSet{box, 0xFF00, 3, {"foot_m", Vec3(0.0, 0.0, -1.0)}}));
+  CHECK(world.find("* near 10 0 0.1") == Names{"box"});
+  Participant pushed;
+  pushed.id = first_solid_participant;
+  pushed.world_from_vehicle.position_m = {30.0, 5.0, 0.0};
+  pushed.lamps.set(Lamp::brake, true);
+  world.now.participants = {pushed};
+  CHECK(world.find("* near 30 5 0.1") == Names{"box"});
+  CHECK(world.find("* near 10 0 0.1").empty());
 }
 
 TEST_CASE("a board is from a millimetre to a kilometre wide and high, and stands where it is said or at the origin") {
