@@ -119,10 +119,15 @@ std::optional<MotionLeg> leg_of(Words words, bool is_later) {
 
 /// Of three numbers as in pictures.
 glm::vec3 linear_rgb(std::span<const double> srgb) {
-  const auto light = [&](std::size_t i) {
-    return static_cast<float>(image::light_of_srgb(std::clamp(srgb[i], 0.0, 1.0)));
-  };
+  const auto light = [&](std::size_t i) { return static_cast<float>(image::light_of_srgb(srgb[i])); };
   return {light(0), light(1), light(2)};
+}
+
+/// Three parts of a colour, each from 0 to 1; empty: other words.
+std::optional<std::vector<double>> colour_of(Words words) {
+  auto read = words.size() == 3 ? numbers(words) : std::nullopt;
+  if (!read || std::ranges::any_of(*read, [](double part) { return part < 0.0 || part > 1.0; })) return std::nullopt;
+  return read;
 }
 
 class Verbs {
@@ -364,8 +369,8 @@ class Verbs {
   }
   Expected<EditedLine> color(Words words) {
     constexpr std::string_view usage = "color NODE RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";
-    const auto rgb = words.size() == 4 ? numbers(words.subspan(1)) : std::nullopt;
-    if (!rgb) return wrong("a node and three numbers are needed", usage);
+    const auto rgb = words.empty() ? std::nullopt : colour_of(words.subspan(1));
+    if (!rgb) return wrong("a node and three numbers from 0 to 1 are needed", usage);
     const auto id = object(words[0]);
     if (!id) return no_node_called(words[0]);
     const auto first = free_ids("");
@@ -457,8 +462,8 @@ class Verbs {
   Expected<EditedLine> repaint(Words words) {
     constexpr std::string_view usage = "repaint PARTICIPANT RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";
     const auto number = words.empty() ? std::nullopt : participant(words[0]);
-    const auto rgb = words.size() == 4 ? numbers(words.subspan(1)) : std::nullopt;
-    if (!number || !rgb) return wrong("a participant's number or name and three numbers are needed", usage);
+    const auto rgb = words.empty() ? std::nullopt : colour_of(words.subspan(1));
+    if (!number || !rgb) return wrong("a participant's number or name and three numbers from 0 to 1 are needed", usage);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
     Made made{{}, *first};
@@ -520,7 +525,6 @@ void forget_destroyed(EditNames& names, std::span<const Command> batch) {
 
 Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store, const Snapshot& now) {
   constexpr std::string_view usage = "find [NAME] [type TYPE] [tag GROUP.TAG] [near X Y METRES]";
-  constexpr std::size_t most = 1000;
   constexpr std::array types{"object", "geometry", "material", "bitmap"};
   std::string_view pattern = "*", type, group, tag;
   std::optional<std::vector<double>> near;
@@ -553,7 +557,7 @@ Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, co
       if (std::hypot(at_m.x - (*near)[0], at_m.y - (*near)[1]) > (*near)[2]) continue;
     }
     found.push_back(id);
-    if (found.size() == most) break;
+    if (found.size() > most_nodes_found) break;
   }
   return found;
 }

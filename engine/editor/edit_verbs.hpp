@@ -58,7 +58,8 @@ void forget_destroyed(EditNames& names, std::span<const scene::Command> batch);
 std::optional<scene::Transform> transform_of(std::span<const scene::TextWord> words);
 
 /// The nodes that `find` means: a pattern of names (* and ?), then `type TYPE`, `tag GROUP.TAG`, `near X Y METRES`, which
-/// counts from where things are at `now`. At most a thousand.
+/// counts from where things are at `now`. One more than `most_nodes_found`: there are more.
+inline constexpr std::size_t most_nodes_found = 1000;
 Expected<std::vector<scene::NodeId>> found_nodes(const std::vector<scene::TextWord>& words, const scene::Store& store,
                                                  const Snapshot& now);
 

@@ -71,6 +71,8 @@ class WorldGate {
     std::size_t bytes = 0;
   };
 
+  replication::Refusal with_names(replication::Refusal refusal, std::span<const scene::Command> batch) const;
+  void note_gone(std::span<const scene::Command> batch);
   void execute(const std::vector<simulation::OperatorCommand>& commands);
   void tag_pushable(Tick from);
   void remember(const Editor& editor, Batch batch);
@@ -82,6 +84,7 @@ class WorldGate {
   Done done_ = [](const scene::Command&, Tick) {};
   NodeMakers makers_;
   std::map<scene::NodeId, std::string> changers_;  ///< Who has changed a node last.
+  std::map<scene::NodeId, std::string> gone_;      ///< Names of nodes that are gone, so that a refusal can name them.
   std::map<std::string, std::deque<Batch>> undo_;  ///< By author, the newest last.
   SolidThings solids_;
   scene::ConstantsTold constants_;

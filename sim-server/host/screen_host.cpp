@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -260,10 +261,14 @@ void ScreenHost::refuse_scene(const SceneRequest& request, replication::Refusal 
 void ScreenHost::on_operator_line(net::ClientId client, const OperatorLine& line) {
   OperatorRequest request{client, clients_.at(client), line.number, line.line};
   const net::Rights rights = rights_of(request.name);
-  if (!rights.may_operate && !(line.line == "undo" && rights.edit))
+  const bool undoes = line.line == "undo";
+  if (!rights.may_operate && !(undoes && rights.edit)) {
+    const auto [deed, word] =
+        undoes ? std::pair("undo, as it changes nothing", "edit") : std::pair("operate", "operate");
     return answer(
-        request, fmt::format("the key of {0} may not operate: allowed-clients needs `KEY {0} … operate`", request.name),
-        0);
+        request,
+        fmt::format("the key of {0} may not {1}: allowed-clients needs `KEY {0} … {2}`", request.name, deed, word), 0);
+  }
   if (operator_requests_.size() >= most_operator_lines)
     return answer(request, "too many lines wait for this tick already: send fewer", 0);
   operator_requests_.push_back(std::move(request));

@@ -114,6 +114,17 @@ TEST_CASE("what somebody else has changed since, or what an editor may no longer
   CHECK(gate.undo(gate.lab) == "there is nothing of lab's to be undone");
 }
 
+TEST_CASE("a refusal about a node that is gone has the name that it had") {
+  Gate gate;
+  CHECK(gate.make(gate.lab, {scene::NodeCreate{labs_ids, scene::NodeType::object},
+                             scene::NodeNameSet{labs_ids, "stimuli/flash"}}) == "");
+  CHECK(gate.make(gate.lab, {scene::NodeDestroy{labs_ids}}, false) == "");
+  CHECK(gate.undo(gate.lab) == "stimuli/flash is gone: it was removed or replaced");
+  const auto refused = gate.world->make(gate.lab, {scene::TransformSet{labs_ids, {}}}, 5);
+  REQUIRE(refused);
+  CHECK(refused->failures.front().node == "stimuli/flash");
+}
+
 TEST_CASE("of many batches the newest hundred are undone") {
   Gate gate;
   for (std::size_t i = 0; i <= most_undone_batches; ++i)

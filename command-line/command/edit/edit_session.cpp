@@ -298,11 +298,19 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
   } else if (verb == "find") {
     const std::uint64_t request = ++requests_;
     const Snapshot at = now();
-    const auto found = editor::found_nodes(words, client_.store(), at);
-    if (found)
-      output_.nodes(request, *found, names(), at);
-    else
+    auto found = editor::found_nodes(words, client_.store(), at);
+    if (!found) {
       refuse(request, line, describe(found.error()));
+      return true;
+    }
+    const bool has_more = found->size() > editor::most_nodes_found;
+    if (has_more) found->resize(editor::most_nodes_found);
+    output_.nodes(request, *found, names(), at);
+    if (has_more)
+      output_.message(
+          fmt::format("more than {} nodes are of this kind, and the others are not told: write a longer "
+                      "name, or near X Y METRES",
+                      editor::most_nodes_found));
   } else if (verb == "read") {
     read(++requests_, words);
   } else if (verb == "save") {

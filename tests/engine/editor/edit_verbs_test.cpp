@@ -109,6 +109,19 @@ TEST_CASE("what goes or was pushed is found where it is at the tick, and no more
   CHECK(world.find("* near 10 0 0.1").empty());
 }
 
+TEST_CASE("a colour has parts from 0 to 1, and a picture that is not there is to be looked for") {
+  EditedWorld world;
+  REQUIRE(world.take("board b 1 1"));
+  CHECK(world.take("color b 1 0 0.5"));
+  for (const char* line : {"color b 2 0 0", "color b 0 0 -0.1", "color b 1 1", "repaint 1 0 0 1.5"}) {
+    const auto refused = world.take(line);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().what.find("from 0 to 1") != std::string::npos);
+  }
+  CHECK(world.take("repaint 1 0 0 1"));
+  CHECK(world.take("picture b /nowhere/none.png").error().remedy == "check that the file exists and can be read");
+}
+
 TEST_CASE("a board is from a millimetre to a kilometre wide and high, and stands where it is said or at the origin") {
   for (const char* size : {"0.001 1000", "1000 0.001", "2 1", "2 1 3 4 5", "2 1 3 4 5 90"}) {
     CAPTURE(size);
