@@ -89,7 +89,7 @@ def what_a_file_holds_and_what_is_left_out_is_said(world: septet.World, glb: pat
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     (folder / "ball.glb").write_bytes(triangle_glb())
-    with EditedDrive(septet_program, folder, ["lab=edit operate", "desk=edit operate"]) as drive:
+    with EditedDrive(septet_program, folder, ["lab=edit operate", "desk=edit later/ operate"]) as drive:
         the_first_lines_of_the_document_are_done(drive.keys / "lab", folder)
         with septet.connect(keys=drive.keys / "lab") as lab, septet.connect(keys=drive.keys / "desk") as desk:
             what_a_file_holds_and_what_is_left_out_is_said(lab, folder / "ball.glb")

@@ -90,7 +90,8 @@ TEST_CASE("what goes or was pushed is found where it is at the tick, and no more
   EditedWorld world;
   REQUIRE(world.take("create box 10 0 1"));
   REQUIRE(world.take("create ball 0 0 0"));
-  REQUIRE(world.take("go ball 10 0 0"));
+  const scene::NodeId ball = world.names.fresh.find("ball")->second;
+  REQUIRE(world.store.apply(scene::MotionSet{ball, {.legs = {{.velocity_mps = {10.0, 0.0, 0.0}}}}}));
   world.now.simulated_time_s = 2.0;
   CHECK(world.find("* near 20 0 0.1") == Names{"ball"});
   CHECK(world.find("ball near 0 0 0.1").empty());
@@ -336,7 +337,8 @@ TEST_CASE("what is moved keeps its heading unless another is given, and its scal
 TEST_CASE("a place ends the motion, set by another's line or by one that the scene does not have yet") {
   EditedWorld world;
   REQUIRE(world.take("create ball 1 2 3"));
-  REQUIRE(world.take("go ball 1 0 0"));
+  const scene::NodeId ball = world.names.fresh.find("ball")->second;
+  REQUIRE(world.store.apply(scene::MotionSet{ball, {.legs = {{.velocity_mps = {1.0, 0.0, 0.0}}}}}));
   // Another editor's names, the same scene.
   EditNames others{2000, 2000};
   const auto moved = edit_of(scene::words_of("move ball 4 5 6 1 0 0 0 2 2 2").value(), world.store, others).value();
