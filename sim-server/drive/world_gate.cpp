@@ -14,12 +14,30 @@
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/command_text.hpp"
 #include "engine/scene/command_validation.hpp"
+#include "engine/scene/growth.hpp"
 #include "engine/simulation/model.hpp"
 #include "sim-server/drive/batch_failures.hpp"
 #include "sim-server/drive/motion_times.hpp"
 
 namespace septet::server {
 namespace {
+
+/// Why the shapes that a batch sizes would hold up the drive, or nothing.
+std::optional<std::string> too_large(const scene::Store& store, std::span<const scene::Command> batch) {
+  for (const scene::Command& command : batch)
+    if (const auto* size = std::get_if<scene::GeometrySizeSet>(&command);
+        size && std::max(size->vertices, size->polygons) > most_elements_of_shape)
+      return fmt::format(
+          "a shape of {} vertices and {} polygons, of each {} are the most: divide it among several nodes",
+          size->vertices, size->polygons, most_elements_of_shape);
+  constexpr std::uint64_t most = replication::most_grown_bytes_of_batch;
+  const std::uint64_t grown = scene::grown_bytes(store, batch);
+  if (grown <= most) return std::nullopt;
+  return fmt::format(
+      "its sizes let shapes grow by {} bytes, of which one batch, done whole between two ticks, has {} at most: set "
+      "them in several batches",
+      grown, most);
+}
 
 replication::Refusal refusal_of(std::string node, std::string why) {
   return {{{0, std::move(node), std::move(why)}}, 0};
@@ -88,6 +106,8 @@ void WorldGate::begin() {
 
 std::optional<replication::Refusal> WorldGate::pass(const Editor& editor, std::span<const scene::Command> batch,
                                                     Tick from, const Batch* undone, Batch* done) {
+  // What an undo brings back was there.
+  if (auto why = undone ? std::nullopt : too_large(drive_.store, batch)) return refusal_of({}, std::move(*why));
   note_gone(batch);
   NodeMakers destroyed;
   for (const scene::Command& command : batch)

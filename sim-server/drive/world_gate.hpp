@@ -31,6 +31,9 @@ namespace septet::server {
 /// Of one author: batches that may be undone, and bytes of the commands that would do so. Older ones are forgotten.
 inline constexpr std::size_t most_undone_batches = 100, most_undone_bytes = 32u << 20;
 
+/// Vertices, and polygons, of a shape that is edited: to make or remove a larger one holds up the drive for many ticks.
+inline constexpr std::uint32_t most_elements_of_shape = 1u << 20;
+
 class WorldGate {
  public:
   /// Told each command that was done, and the first tick that shows it.
