@@ -55,6 +55,33 @@ std::optional<std::vector<double>> numbers(Words words) {
 
 Quat turned(double heading_deg) { return glm::angleAxis(heading_deg * std::numbers::pi / 180.0, Vec3(0, 0, 1)); }
 
+/// Bitmaps that a material reads, by its fragments and by its tags.
+void add_bitmaps_read(const Command& command, std::set<NodeId>& bitmaps) {
+  if (const auto* fragment = std::get_if<FragmentSet>(&command)) {
+    if (const auto* texture = std::get_if<TextureFragment>(&fragment->value)) bitmaps.insert(texture->bitmap);
+  } else if (const auto* tag = std::get_if<TagSet>(&command)) {
+    if (const auto* bitmap = std::get_if<NodeReference>(&tag->value.value)) bitmaps.insert(bitmap->node);
+  }
+}
+
+/// This editor's own bitmaps that materials read of which each is among the `gone`.
+std::set<NodeId> bitmaps_left_over(const std::set<NodeId>& gone, const Store& store, NodeId own_ids,
+                                   std::span<const Command> batch) {
+  std::set<NodeId> read_by_gone, read_by_others;
+  const auto read_by = [&](NodeId node) -> std::set<NodeId>& {
+    return gone.contains(node) ? read_by_gone : read_by_others;
+  };
+  for (auto node = store.nodes().lower_bound(own_ids);
+       node != store.nodes().end() && node->first - own_ids < replication::ids_per_session; ++node)
+    if (node->second.type() == NodeType::material)
+      describe_node(node->second, [&](const Command& command) { add_bitmaps_read(command, read_by(node->first)); });
+  for (const Command& command : batch) add_bitmaps_read(command, read_by(scene::node_of(command)));
+  std::erase_if(read_by_gone, [&](NodeId bitmap) {
+    return read_by_others.contains(bitmap) || bitmap - own_ids >= replication::ids_per_session;
+  });
+  return read_by_gone;
+}
+
 }  // namespace
 
 std::vector<Command> removal_of(NodeId thing, const Store& store, NodeId own_ids, std::span<const Command> batch) {
@@ -75,6 +102,7 @@ std::vector<Command> removal_of(NodeId thing, const Store& store, NodeId own_ids
     for (const LinkSet* link : to_come)
       if (link->node == id) reach(link->value.target);
   }
+  gone.merge(bitmaps_left_over(gone, store, own_ids, batch));
   std::vector<Command> commands;
   commands.reserve(gone.size());
   for (const NodeId each : gone) commands.emplace_back(NodeDestroy{each});

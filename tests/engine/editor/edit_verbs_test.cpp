@@ -145,8 +145,9 @@ TEST_CASE("what is made under a name again takes the place of what had it, with 
   REQUIRE(parts > 1);
   REQUIRE(editor.take("board sign 3 1 5 0 0").has_value());
   CHECK(editor.store.nodes().size() == parts);
+  REQUIRE(editor.take("text sign HELLO").has_value());
   REQUIRE(editor.take("create sign").has_value());
-  CHECK(editor.store.nodes().size() == 1);
+  CHECK(editor.store.nodes().size() == 1);  // The picture of the text has gone as well.
   REQUIRE(editor.take("remove sign").has_value());
   CHECK(editor.store.nodes().empty());
 }
@@ -374,6 +375,13 @@ TEST_CASE("an imported model's properties are tags of its object, by which it is
       "1 triangles; 4.00 m long (glTF's z, forward), 4.00 m wide (x, left), 0.00 m high (y, up), from 0.00 m above its "
       "origin on");
   CHECK(editor.find("tag extras.mass_kg") == Names{"deer"});
+  // No look is made that no part wears.
+  std::size_t looks = 0;
+  for (const auto& [id, node] : editor.store.nodes()) looks += node.type() == scene::NodeType::material;
+  CHECK(looks == 1);
+  // A key with prefixes of names may import it.
+  for (const auto& [id, node] : editor.store.nodes())
+    if (id >= own_ids && !node.name.empty()) CHECK(node.name.starts_with("deer"));
   const scene::Node& deer = *editor.store.find(own_ids);
   REQUIRE(scene::find_tag(deer, "extras", "kind") != nullptr);
   CHECK(*scene::find_tag(deer, "extras", "kind") == scene::TagValue(std::string("deer")));
