@@ -94,6 +94,9 @@ Expected<std::unique_ptr<EditClient>> connected(const EditOptions& options, cons
   return client;
 }
 
+/// A server that is busy for a moment has not gone, and a script that ended would not come back.
+constexpr double longest_absence_s = 5.0;
+
 }  // namespace
 
 Expected<int> run_edit(const EditOptions& options) {
@@ -111,6 +114,7 @@ Expected<int> run_edit(const EditOptions& options) {
                link.history().empty() ? 0 : link.history().newest().snapshot.tick,
                scene::participant_names((*client)->store()));
   std::string end = "all lines are done";
+  double heard_s = program::monotonic_s();
   for (;;) {
     (*client)->pump();
     session.hear();
@@ -122,8 +126,11 @@ Expected<int> run_edit(const EditOptions& options) {
               session.answers_owed() < most_answers_owed);
     };
     while (!lines->empty() && may_take(lines->front())) session.take(lines->take());
+    if (lines->ended()) session.end();
     if (lines->ended() && session.is_settled() && !session.is_watching()) break;
-    if (link.finished() || link.server_is_gone() || link.refusal() || program::should_stop()) {
+    if (!link.server_is_gone()) heard_s = program::monotonic_s();
+    const bool is_gone = program::monotonic_s() - heard_s > longest_absence_s;
+    if (link.finished() || is_gone || link.refusal() || program::should_stop()) {
       end = link.finished() ? "the drive has ended" : program::should_stop() ? "stopped" : "the server is gone";
       break;
     }

@@ -445,7 +445,8 @@ class World:
         self.missed_ticks = 0
         self.why_ended: Optional[str] = None
         self._errors: list[str] = []
-        threading.Thread(target=self._read_errors, daemon=True).start()
+        self._error_reader = threading.Thread(target=self._read_errors, daemon=True)
+        self._error_reader.start()
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
@@ -772,8 +773,10 @@ class World:
                 why = row["why"]
             else:
                 self._take(row)
+        if not self.hello:
+            self._error_reader.join(10.0)  # It has the reason.
         with self._news:
-            self.why_ended = self._errors[-1] if self._errors and not self.hello else why
+            self.why_ended = "\n".join(self._errors) if self._errors and not self.hello else why
             for answer in self._asked.values():
                 answer.set_exception(Ended(self.why_ended))
             self._asked.clear()
@@ -802,6 +805,8 @@ class World:
                     self._calls.put(call)
             self._tell("tick", tick)
         elif kind == "message":
+            if not self.hello:
+                self._errors.append(row["text"])  # What hinders it.
             self._tell("message", row["text"])
         elif kind == "hello":
             with self._news:

@@ -96,6 +96,13 @@ void EditSession::take(const std::string& line) {
   if (!batch_) send(std::move(one));
 }
 
+void EditSession::end() {
+  if (!batch_) return;
+  forget_created(*batch_);
+  batch_.reset();
+  refuse(++requests_, "begin", "the lines end without its `commit`: nothing of the batch was done");
+}
+
 void EditSession::add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words) {
   if (batch.commands.empty() && is_settled()) names_.paints.worn.clear();
   batch.lines.push_back(line);

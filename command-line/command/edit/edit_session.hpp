@@ -40,6 +40,8 @@ class EditSession {
   /// Batches that the server has, and that wait for a tick which is still ahead.
   std::size_t ahead_of_now() const;
   void take(const std::string& line);
+  /// No more lines come: a batch without its `commit` is refused.
+  void end();
   /// Says what the server has answered, and the ticks that have come.
   void hear();
   /// Sends what differs in files that are watched and were saved.
