@@ -313,9 +313,16 @@ class Verbs {
   }
   Expected<EditedLine> hide(Words words, bool hidden) {
     if (words.size() != 1) return wrong("one node is needed", hidden ? "hide NODE" : "show NODE");
-    const auto id = object(words[0]);
-    if (!id) return no_node_called(words[0]);
-    return EditedLine{{HideSet{*id, hidden}}};
+    if (const auto id = object(words[0])) return EditedLine{{HideSet{*id, hidden}}};
+    // A participant, who has a root once something was said of it.
+    const auto number = participant(words[0]);
+    if (!number) return no_node_called(words[0]);
+    const auto first = free_ids("");
+    if (!first) return tl::unexpected(first.error());
+    Made made{{}, *first};
+    const NodeId root = root_of(*number, made);
+    made.commands.emplace_back(HideSet{root, hidden});
+    return keep(std::move(made));
   }
   Expected<EditedLine> remove(Words words) {
     if (words.size() != 1) return wrong("one node is needed", "remove NODE");

@@ -138,6 +138,18 @@ TEST_CASE("a board is from a millimetre to a kilometre wide and high, and stands
   }
 }
 
+TEST_CASE("a participant is hidden by its number, and shown again at the same root") {
+  EditedWorld editor;
+  REQUIRE(editor.take("hide 7").has_value());
+  const scene::Node* root = editor.store.find(scene::NodeType::object, "model/participant/7");
+  REQUIRE(root);
+  CHECK(std::get<scene::ObjectData>(root->data).hidden);
+  REQUIRE(editor.take("show 7").has_value());
+  CHECK_FALSE(std::get<scene::ObjectData>(root->data).hidden);
+  CHECK(editor.store.nodes().size() == 1);
+  CHECK_FALSE(editor.take("hide nobody").has_value());
+}
+
 TEST_CASE("what is made under a name again takes the place of what had it, with all its parts") {
   EditedWorld editor;
   REQUIRE(editor.take("board sign 2 1").has_value());
