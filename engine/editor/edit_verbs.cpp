@@ -289,8 +289,8 @@ class Verbs {
     }
     EditedLine line{{TransformSet{*id, *transform}}};
     // Whose line ever set it in motion; one of this editor's may not be in the mirror yet.
-    if ((now && !now->motion.legs.empty()) || names_.going.erase(*id) > 0)
-      line.commands.emplace_back(MotionSet{*id, {}});
+    const bool was_sent_going = names_.going.erase(*id) > 0;
+    if (was_sent_going || (now && !now->motion.legs.empty())) line.commands.emplace_back(MotionSet{*id, {}});
     return line;
   }
   Expected<EditedLine> go(Words words) {
