@@ -8,6 +8,7 @@
 #include "engine/world/hazard.hpp"
 #include "logging/study/lesson/lesson.hpp"
 #include "logging/study/measures/hazard_reactions.hpp"
+#include "tests/relative.hpp"
 
 namespace septet::logging {
 namespace {
@@ -56,7 +57,7 @@ TEST_CASE("half of the accelerator given back is a reaction, a tenth of it is no
   CHECK(lifted[0].time_s == doctest::Approx(1.2));
   const auto held = find_hazard_reactions(events, drive([](Sample& sample) { sample.accelerator = 0.27; }));
   CHECK(held[0].response == HazardResponse::censored);
-  CHECK(held[0].time_s == doctest::Approx(9.9).epsilon(0.02));
+  CHECK(held[0].time_s == relative(9.9, 0.02));
 }
 
 TEST_CASE("one who braked already has reacted, one who stood or never saw it has no reaction time") {

@@ -229,7 +229,7 @@ using ActionVariant =
     std::variant<std::monostate, SpeedAction, SpeedProfileAction, KeepDistanceAction, SynchronizeAction,
                  LaneChangeAction, LaneOffsetAction, TeleportAction, FollowTrajectoryAction, AssignRouteAction,
                  AcquirePositionAction, EnvironmentAction, LightStateAction, SirenAction, EffectAction, ValueAction,
-                 TrafficSwarmAction, TrafficStopAction, Call, OverlookAction, PeopleErrorRates, PeopleWish, AddEntityAction,
-                 DeleteEntityAction, HazardAction>;
+                 TrafficSwarmAction, TrafficStopAction, Call, OverlookAction, PeopleErrorRates, PeopleWish,
+                 AddEntityAction, DeleteEntityAction, HazardAction>;
 
 }  // namespace septet::scenario
