@@ -91,8 +91,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a vehicle that comes across counts once it cannot stop before the lanes, one with a siren before that") {
-  CHECK(seen_across("saloon", -10.0, 5.0).empty());
-  CHECK(seen_across("saloon", -10.0, 5.0, true).size() == 1);
+  CHECK(seen_across("saloon", -13.0, 6.0).empty());
+  CHECK(seen_across("saloon", -13.0, 6.0, true).size() == 1);
   CHECK(seen_across("saloon", -14.0, 14.0).size() == 1);
 }
 
