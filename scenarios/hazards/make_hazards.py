@@ -17,6 +17,7 @@ from make_town import Town  # noqa: E402
 from town_plan import WAY  # noqa: E402
 from town_scenario import phases  # noqa: E402
 
+LAST_S = 32.0  # On the last road, where the way ends.
 DATE = "2026-11-29T12:00:00"
 
 
@@ -168,7 +169,7 @@ MANEUVERS = {
         event("crosses", trigger(metres_away("$place", "$metres")), command("hazard", "somebody comes from the side"),
               speed("$speed", "$acceleration")),
         event("is gone", trigger(metres_away("$place", "$metres", 14)), goes("$place"))]),
-    "rides-beside": ({**WHO, "seconds": 7.0, "near": 16.0, "speed": 5.0}, [
+    "rides-beside": ({**WHO, "seconds": 7.0, "near": 25.0, "speed": 5.0}, [
         event("rides", trigger(seconds_away("$place", "$seconds")), speed("$speed", 1.0)),
         event("is near", trigger(metres_away("$place", "$near")), command("hazard", "a cyclist at the right")),
         event("is gone", trigger(metres_away("$place", "$near", 25)), goes("$place"))]),
@@ -344,16 +345,16 @@ def weather():
 
 
 def way(town):
-    """The route of the driver's car: the middle of each street on the town's way."""
+    """The route of the driver's car: the middle of each street on the town's way, and where the drive ends."""
     found = []
     for a, b in zip(WAY, WAY[1:]):
         street, number = next((street, number) for street, number in town.numbers.items() if {street.a, street.b} == {a, b})
-        found.append(tag("Waypoint", lane_place(number, -1 if street.a == a else 1, round(street.length / 2, 1)), routeStrategy="shortest"))
+        found.append(tag("Waypoint", lane_place(number, -1 if street.a == a else 1, LAST_S if b == WAY[-1] else round(street.length / 2, 1)), routeStrategy="shortest"))
     return private(tag("RoutingAction", tag("AssignRouteAction", tag("Route", *found, name="past the hazards", closed="false"))))
 
 
 def ends(last):
-    reached = tag("ReachPositionCondition", tag("Position", tag("LanePosition", roadId=last, laneId=1, s=40, offset=0)), tolerance=10)
+    reached = tag("ReachPositionCondition", tag("Position", tag("LanePosition", roadId=last, laneId=1, s=LAST_S + 8, offset=0)), tolerance=10)
     out = condition("out of the town", of_driver(reached).replace("$driver", "ego"))
     late = condition("a quarter of an hour", tag("ByValueCondition", tag("SimulationTimeCondition", value=900, rule="greaterOrEqual")))
     return tag("StopTrigger", tag("ConditionGroup", out), tag("ConditionGroup", late))
