@@ -13,6 +13,8 @@ namespace {
 constexpr double before_stretch_m = 1.0;  ///< From the line to the crossing.
 constexpr double beside_lane_m = 0.6;     ///< Who is that near to a lane is in it.
 constexpr double let_pass_mps2 = 2.5;     ///< Braking, at most, for who only waits.
+constexpr double nearly_over_m = 0.5,
+                 creeps_mps = 2.0;  ///< Of a vehicle whose front is on a stretch: it can still stop.
 constexpr double stops_mps2 = 2.0, starts_mps2 = 1.5, over_before_s = 1.0, drives_mps = 2.0;
 
 /// The stretch of a lane at a crossing; `lane` is driven on.
@@ -42,16 +44,17 @@ double clear_in_s(const TownVehicle& vehicle, double to_m) {
   return (std::sqrt(v * v + 2.0 * starts_mps2 * way_m) - v) / starts_mps2;
 }
 
-/// True where a vehicle that comes to a stretch, `line_m` before its line, lets one pass.
-bool lets_pass(const TownVehicle& vehicle, const WalkedStretch& stretch, double line_m, const PersonCrossing& person) {
+/// True where a vehicle that comes to a stretch, `line_m` before its line, lets one pass; `line_m` is 0 of one that creeps on the
+/// stretch, and lets nobody pass who waits.
+bool lets_pass(const TownVehicle& vehicle, const WalkedStretch& stretch, double line_m, double beyond_m,
+               const PersonCrossing& person) {
   const double v = vehicle.speed_mps;
-  if (person.waits) return v * v < 2.0 * let_pass_mps2 * std::max(line_m, 0.1);
+  if (person.waits) return line_m > 0.0 && v * v < 2.0 * let_pass_mps2 * std::max(line_m, 0.1);
   const double low_m = stretch.lane_from_m - beside_lane_m, high_m = stretch.lane_to_m + beside_lane_m;
   const bool onwards = person.speed_mps > 0.0;
   if (onwards ? person.at_m > high_m : person.at_m < low_m) return false;
   const double to_lane_m = std::max(0.0, onwards ? low_m - person.at_m : person.at_m - high_m);
   const double comes_s = to_lane_m / std::max(std::abs(person.speed_mps), 0.5);
-  const double beyond_m = line_m + before_stretch_m + (stretch.to_m - stretch.from_m);
   return comes_s < clear_in_s(vehicle, beyond_m) + over_before_s;
 }
 
@@ -85,11 +88,14 @@ double stop_for_people_m(const LaneGraph& graph, const TownState& town, const To
     if (begin_m - vehicle.front_m > looks_m) break;
     for (const WalkedStretch& stretch : graph.walked_of(way)) {
       const double to_stretch_m = begin_m + stretch.from_m - vehicle.front_m;
-      const double line_m = to_stretch_m - before_stretch_m;
-      if (to_stretch_m < 0.0 || line_m > looks_m) continue;
+      const double beyond_m = begin_m + stretch.to_m - vehicle.front_m;
+      const bool creeps_on_it = to_stretch_m < 0.0 && beyond_m > nearly_over_m && v < creeps_mps;
+      const double line_m = creeps_on_it ? 0.0 : to_stretch_m - before_stretch_m;
+      if ((to_stretch_m < 0.0 && !creeps_on_it) || line_m > looks_m) continue;
       const auto there = std::ranges::equal_range(town.people, stretch.crossing, {}, &PersonCrossing::crossing);
-      if (std::ranges::any_of(
-              there, [&](const PersonCrossing& person) { return lets_pass(vehicle, stretch, line_m, person); }))
+      if (std::ranges::any_of(there, [&](const PersonCrossing& person) {
+            return lets_pass(vehicle, stretch, line_m, beyond_m, person);
+          }))
         return line_m;
     }
     begin_m += way.length_m;

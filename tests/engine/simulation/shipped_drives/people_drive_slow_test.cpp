@@ -44,4 +44,24 @@ TEST_CASE("who is hit by the driver's car is thrown, leaves the swarm, and is to
                             [&](const Event& event) { return event.kind == "collision" && event.participant == id; }));
 }
 
+TEST_CASE("in five minutes of the town nobody of the people is hit by traffic") {
+  const server::LoadedDrive loaded = server::shipped_drive("town", "desktop", 3);
+  auto begun = initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, 3));
+  REQUIRE_MESSAGE(begun.has_value(), why_not(begun));
+  State state = std::move(*begun);
+  std::vector<Event> events;
+  DriverInput input;
+  input.brake = 1.0;
+  std::size_t crossing = 0;
+  for (int tick = 0; tick < 300 * 120; ++tick) {
+    const Snapshot now = server_step(*loaded.model, input, state, events);
+    if (tick % 120 == 0)
+      crossing += static_cast<std::size_t>(std::ranges::count_if(state.people.swarm.people, &traffic::Person::crosses));
+  }
+  for (const Event& event : events)
+    if (event.kind == "crash_of_others") MESSAGE(event.detail);
+  CHECK(state.thrown.empty());
+  CHECK(crossing > 100);
+}
+
 }  // namespace septet::simulation
