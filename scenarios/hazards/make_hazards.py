@@ -116,7 +116,7 @@ def lane_offset(metres):
 
 
 def visibility(metres):
-    return tag("GlobalAction", tag("EnvironmentAction", tag("Environment", tag("Weather", tag("Fog", visualRange=metres)), name=f"{metres} m")))
+    return tag("GlobalAction", tag("EnvironmentAction", tag("Environment", tag("Weather", tag("Fog", visualRange=metres)), name="fog")))
 
 
 def event(name, start, *actions):
@@ -378,10 +378,16 @@ def scenario():
                 tag("Story", *acts, name="hazards"), ends(of_entry["south east"]))]
 
 
+def maneuvers():
+    """All of them. The first declares the others' parameters too, as ASAM's checker looks at a catalog's first declarations alone."""
+    everything = {key: value for parameters, _ in reversed(MANEUVERS.values()) for key, value in parameters.items()}
+    for number, (name, (parameters, events)) in enumerate(MANEUVERS.items()):
+        yield maneuver(name, {**parameters, **everything, **parameters} if number == 0 else parameters, *events)
+
+
 def main():
     if sys.argv[1:] == ["catalog"]:
-        parts = [header("What endangers a driver in town"), tag("Catalog", *(maneuver(name, *made) for name, (parameters, events) in MANEUVERS.items()
-                 for made in [(parameters, *events)]), name="hazards")]
+        parts = [header("What endangers a driver in town"), tag("Catalog", *maneuvers(), name="hazards")]
     elif sys.argv[1:] == ["scenario"]:
         parts = scenario()
     else:
