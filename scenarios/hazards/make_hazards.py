@@ -169,7 +169,7 @@ MANEUVERS = {
         event("crosses", trigger(metres_away("$place", "$metres")), command("hazard", "somebody comes from the side"),
               speed("$speed", "$acceleration")),
         event("is gone", trigger(metres_away("$place", "$metres", 14)), goes("$place"))]),
-    "rides-beside": ({**WHO, "seconds": 4.5, "near": 25.0, "speed": 5.0}, [
+    "rides-beside": ({**WHO, "seconds": 4.5, "near": 35.0, "speed": 5.0}, [
         event("rides", trigger(seconds_away("$place", "$seconds")), speed("$speed", 1.0)),
         event("is near", trigger(metres_away("$place", "$near")), command("hazard", "a cyclist at the right")),
         event("is gone", trigger(metres_away("$place", "$near", 25)), goes("$place"))]),

@@ -22,7 +22,7 @@ namespace septet::server {
 TEST_CASE(
     "an experienced driver meets the ten hazards of the way, reacts to those that he could see, and touches no "
     "person") {
-  const TakenDrive taken = take_drive("hazards", "experienced", 1, 900.0);
+  const TakenDrive taken = take_drive("hazards", "experienced", 2, 900.0);
   std::set<std::string> names;
   for (const logging::HazardReaction& reaction : logging::find_hazard_reactions(taken.events, taken.samples)) {
     CAPTURE(reaction.name);
@@ -83,8 +83,9 @@ TEST_CASE("an operator sets each hazard once, where a lane is, and far enough fr
   CHECK(!standing.command(at(10.0, "ball and child")).has_value());
   CHECK(!standing.command(at(5000.0, "ball and child")).has_value());
   CHECK(!standing.command(at(100.0, "a dragon")).has_value());
-  REQUIRE(standing.command(at(100.0, "ball and child")).has_value());
-  CHECK(!standing.command(at(150.0, "ball and child")).has_value());
+  const auto set = standing.command(at(125.0, "ball and child"));
+  REQUIRE_MESSAGE(set.has_value(), why_not(set));
+  CHECK(!standing.command(at(160.0, "ball and child")).has_value());
   CHECK(simulation::settable_hazards(standing.loaded.model->scenario, standing.state.scenario).size() == 10);
   standing.drive(120 * 15);
   CHECK(std::ranges::any_of(standing.events, [](const auto& event) { return event.kind == hazard_event; }));
@@ -94,7 +95,7 @@ TEST_CASE("a drive with a hazard that an operator has set goes on to the same ha
   Standing first;
   first.drive(1);
   const Vec3 car = car_of(first);
-  REQUIRE(first.command(fmt::format("hazard x_m={} y_m={} name=ball and child", car.x + 90.0, car.y)).has_value());
+  REQUIRE(first.command(fmt::format("hazard x_m={} y_m={} name=ball and child", car.x + 125.0, car.y)).has_value());
   first.drive(600);
   const auto saved = simulation::save_state(*first.loaded.model, first.state);
   REQUIRE(saved.has_value());
