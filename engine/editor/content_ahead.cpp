@@ -56,6 +56,7 @@ class StepsOfSize {
     if (!size || !begun_.insert(size->node).second) return {{command}};
     std::vector<scene::Command> whole = layers_[size->node];
     std::vector<Step> steps;
+    steps.reserve(whole.size());
     for (const scene::Command& layer : whole) steps.push_back({layer});
     whole.emplace_back(*size);
     const std::uint64_t grown = scene::grown_bytes(scene::Store(), whole);

@@ -76,7 +76,8 @@ struct Search {
 };
 
 /// Steps from the nodes passed, the first one last.
-LaneRoute route_of(const Search& search, std::vector<Node> nodes, const PlaceOnLane& from, const PlaceOnLane& to) {
+LaneRoute route_of(const Search& search, const std::vector<Node>& nodes, const PlaceOnLane& from,
+                   const PlaceOnLane& to) {
   const LaneGraph& graph = *search.graph;
   LaneRoute route;
   route.length_m = -from.at_m;
@@ -133,7 +134,7 @@ std::optional<LaneRoute> plan_route(const LaneGraph& graph, const PlaceOnLane& f
   std::vector<Node> nodes;
   for (Node node = end; node != no_node; node = search.before[node]) nodes.push_back(node);
   std::ranges::reverse(nodes);
-  LaneRoute route = route_of(search, std::move(nodes), from, *goal);
+  LaneRoute route = route_of(search, nodes, from, *goal);
   route.time_s = least_s;
   route.reached_m = {route.length_m};
   return route;

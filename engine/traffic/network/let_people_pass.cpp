@@ -78,6 +78,12 @@ void mark_crossings(const road::RoadNetwork& network, std::span<const CrossingPl
   }
 }
 
+std::span<const PersonCrossing> people_at(const TownState& town, std::uint32_t crossing) {
+  const auto first = std::ranges::lower_bound(town.people, crossing, {}, &PersonCrossing::crossing);
+  const auto beyond = std::ranges::upper_bound(town.people, crossing, {}, &PersonCrossing::crossing);
+  return {first, beyond};
+}
+
 double stop_for_people_m(const LaneGraph& graph, const TownState& town, const TownVehicle& vehicle) {
   if (town.people.empty()) return no_leader;
   const double v = vehicle.speed_mps;
@@ -92,8 +98,7 @@ double stop_for_people_m(const LaneGraph& graph, const TownState& town, const To
       const bool creeps_on_it = to_stretch_m < 0.0 && beyond_m > nearly_over_m && v < creeps_mps;
       const double line_m = creeps_on_it ? 0.0 : to_stretch_m - before_stretch_m;
       if ((to_stretch_m < 0.0 && !creeps_on_it) || line_m > looks_m) continue;
-      const auto there = std::ranges::equal_range(town.people, stretch.crossing, {}, &PersonCrossing::crossing);
-      if (std::ranges::any_of(there, [&](const PersonCrossing& person) {
+      if (std::ranges::any_of(people_at(town, stretch.crossing), [&](const PersonCrossing& person) {
             return lets_pass(vehicle, stretch, line_m, beyond_m, person);
           }))
         return line_m;

@@ -133,6 +133,9 @@ std::optional<LightAhead> light_ahead(const LaneGraph& graph, const TownVehicle&
 /// if there is none.
 double wait_within_mps2(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t vehicle);
 
+/// Those who are at one crossing.
+std::span<const PersonCrossing> people_at(const TownState& town, std::uint32_t crossing);
+
 /// Distance from a vehicle's front to the line at which it is to stop for people; infinite if there is none.
 double stop_for_people_m(const LaneGraph& graph, const TownState& town, const TownVehicle& vehicle);
 

@@ -118,8 +118,7 @@ bool somebody_crosses(const LaneGraph& graph, const TownState& town, const Way& 
   constexpr double behind_m = 3.0, stops_in_m = 40.0;
   for (const WalkedStretch& stretch : graph.walked_of(way)) {
     if (stretch.to_m < rear_m - behind_m || stretch.from_m > front_m + stops_in_m) continue;
-    const auto there = std::ranges::equal_range(town.people, stretch.crossing, {}, &PersonCrossing::crossing);
-    if (!std::ranges::all_of(there, &PersonCrossing::waits)) return true;
+    if (!std::ranges::all_of(people_at(town, stretch.crossing), &PersonCrossing::waits)) return true;
   }
   return false;
 }

@@ -98,7 +98,8 @@ Vec2 step_to(const WalkwayGraph& graph, const std::vector<SeenVehicle>& vehicles
   Vec2 chosen(0.0);
   for (int n = 0; n <= 2 * widest; ++n) {
     // Straight on, then by turns to the side to which people keep and to the other.
-    const double angle = side * step_rad * ((n + 1) / 2) * (n % 2 == 0 ? -1.0 : 1.0);
+    const int steps = (n + 1) / 2;
+    const double angle = side * step_rad * steps * (n % 2 == 0 ? -1.0 : 1.0);
     const Vec2 direction(ahead.x * std::cos(angle) - ahead.y * std::sin(angle),
                          ahead.x * std::sin(angle) + ahead.y * std::cos(angle));
     double free = within_m(place, person.left_m, direction, beyond_m);
