@@ -33,6 +33,11 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Seed of everything random")->check(seed_number());
   app.add_option("--driver", options.driver, "A simulated driver drives: plain, novice, experienced, tired or escort")
       ->default_str("the rig's");
+  app.add_option("--to", options.to,
+                 "Guide the driver to a place: a road's name or id, id:s, or x,y (docs/guidance.md)")
+      ->type_name("PLACE")
+      ->default_str("nobody guides");
+  app.add_option("--language", options.language, "Of spoken guidance")->check(CLI::IsMember({"en", "de", "sv"}));
   app.add_option("--parameter", options.parameters, "Of the scenario, instead of its own value; as often as needed")
       ->type_name("NAME=VALUE")
       ->default_str("")

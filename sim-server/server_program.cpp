@@ -13,6 +13,7 @@
 
 #include "engine/core/printable.hpp"
 #include "logging/study/lesson/lesson.hpp"
+#include "program/child_process.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
 #include "program/stop_signal.hpp"
@@ -20,6 +21,7 @@
 #include "sim-server/attendants/console.hpp"
 #include "sim-server/attendants/desk.hpp"
 #include "sim-server/attendants/drive_log.hpp"
+#include "sim-server/attendants/guidance_voice.hpp"
 #include "sim-server/attendants/operator_lines.hpp"
 #include "sim-server/attendants/scene_edits.hpp"
 #include "sim-server/attendants/screens.hpp"
@@ -117,6 +119,8 @@ Expected<Attendance> gather(const ServerOptions& options, const ServeOptions& se
   if (rig.sound && !options.no_sound && !options.lockstep && host)
     all.list.push_back(std::make_unique<Sound>(
         SoundSources{rig, drive.loaded.model, drive.session ? &*drive.session : nullptr, drive.store}, drive.live));
+  if (drive.live && host && !options.no_sound && !options.lockstep)
+    all.list.push_back(std::make_unique<GuidanceVoice>(Speaker(program::find_program("espeak-ng")), options.language));
   if (screens) all.list.push_back(std::make_unique<OperatorLines>(drive, *host, all.log, all.gate.get()));
   if (screens || drive.live)
     all.list.push_back(std::make_unique<SceneEdits>(drive, host, all.log, all.gate.get(), options.save));

@@ -170,6 +170,10 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   add_chosen("--eyes", options.eyes);
   add_chosen("--driver", options.driver);
   add_chosen("--motion", options.motion);
+  if (options.replay.empty()) {
+    add_chosen("--to", options.to);
+    add_chosen("--language", options.language);
+  }
   add_chosen("--vehicle", options.vehicle);
   add_chosen("--models", options.models.string());
   add_chosen("--edits", options.edits.string());

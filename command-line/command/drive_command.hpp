@@ -19,6 +19,8 @@ struct DriveOptions {
   std::uint64_t seed = 1;
   bool virtual_screens = false;
   std::string driver;                   ///< Simulated driver; empty: the rig's.
+  std::string to;                       ///< Goal to which the driver is guided; empty: nobody guides him.
+  std::string language = "en";          ///< Of spoken guidance.
   std::string motion;                   ///< Table by which the driver's car goes; empty: somebody drives.
   std::string vehicle;                  ///< A file, or a name below vehicles/; empty: the rig's.
   std::filesystem::path models;         ///< Folder of a person's own models; empty: none.

@@ -94,6 +94,9 @@ Expected<std::unique_ptr<EditClient>> connected(const EditOptions& options, cons
   return client;
 }
 
+/// A server that is busy for a moment has not gone, and a script that ended would not come back.
+constexpr double longest_absence_s = 5.0;
+
 }  // namespace
 
 Expected<int> run_edit(const EditOptions& options) {
@@ -111,18 +114,23 @@ Expected<int> run_edit(const EditOptions& options) {
                link.history().empty() ? 0 : link.history().newest().snapshot.tick,
                scene::participant_names((*client)->store()));
   std::string end = "all lines are done";
+  double heard_s = program::monotonic_s();
   for (;;) {
     (*client)->pump();
     session.hear();
     session.look_at_files(program::monotonic_s());
     if (auto read = lines->pump(); !read) return tl::unexpected(read.error());
     const auto may_take = [&](const std::string& line) {
-      return session.is_settled() || ((options.json || session.is_in_batch()) && !EditSession::reads_scene(line) &&
-                                      session.answers_owed() < most_answers_owed);
+      return session.is_settled_for_now() ||
+             ((options.json || session.is_in_batch()) && !EditSession::reads_scene(line) &&
+              session.answers_owed() < most_answers_owed);
     };
     while (!lines->empty() && may_take(lines->front())) session.take(lines->take());
+    if (lines->ended()) session.end();
     if (lines->ended() && session.is_settled() && !session.is_watching()) break;
-    if (link.finished() || link.server_is_gone() || link.refusal() || program::should_stop()) {
+    if (!link.server_is_gone()) heard_s = program::monotonic_s();
+    const bool is_gone = program::monotonic_s() - heard_s > longest_absence_s;
+    if (link.finished() || is_gone || link.refusal() || program::should_stop()) {
       end = link.finished() ? "the drive has ended" : program::should_stop() ? "stopped" : "the server is gone";
       break;
     }
@@ -130,7 +138,8 @@ Expected<int> run_edit(const EditOptions& options) {
   }
   output.end(end);
   (*client)->close();
-  return session.refusals() == 0 && session.answers_owed() == 0 ? logging::finished_status : logging::failed_status;
+  return session.refusals() == 0 && session.answers_owed() + session.ahead_of_now() == 0 ? logging::finished_status
+                                                                                         : logging::failed_status;
 }
 
 }  // namespace septet::server

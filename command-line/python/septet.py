@@ -19,14 +19,13 @@ import math
 import os
 import pathlib
 import queue
-import re
 import shutil
 import subprocess
 import tempfile
 import threading
 import traceback
 from concurrent.futures import Future
-from typing import Any, AsyncIterator, Callable, Iterable, Iterator, Optional, Sequence, Union
+from typing import Any, AsyncIterator, Callable, Iterable, Iterator, NamedTuple, Optional, Sequence, Union
 
 __all__ = ["connect", "World", "Handle", "Batch", "Tick", "Event", "Call", "Car", "Participant", "Refused", "Failure", "Ended"]
 
@@ -41,6 +40,13 @@ MOST_EVENTS_KEPT = 10_000
 Solid = Union[bool, float]
 Parent = Union[int, str, "Participant", "Car", "Handle"]
 """A participant, by its number, the scenario's name or as a tick has it; or a thing."""
+
+
+class _Done(NamedTuple):
+    """Of a request: the first tick that shows it, and what is said of it."""
+
+    tick: int
+    messages: list[str]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -221,18 +227,26 @@ class _Every:
         return True
 
 
+class _Backlog:
+    """Ticks that wait for one loop, the newest `MOST_TICKS_KEPT`."""
+
+    def __init__(self) -> None:
+        self.ticks: collections.deque[Tick] = collections.deque()
+
+    def keep(self, tick: Tick) -> int:
+        """Returns how many are dropped; their events go to the next."""
+        self.ticks.append(tick)
+        if len(self.ticks) <= MOST_TICKS_KEPT:
+            return 0
+        self.ticks[1] = _joined(self.ticks[0], self.ticks[1])
+        self.ticks.popleft()
+        return 1
+
+
 def _word(text: str) -> str:
     """The text as one quoted word of a line."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
     return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\x{ord(c):02x}" for c in escaped) + '"'
-
-
-def _unquoted(word: str) -> str:
-    return re.sub(r"\\x([0-9a-f]{2})|\\(.)", _unescaped, word[1:-1]) if word.startswith('"') else word
-
-
-def _unescaped(sign: "re.Match[str]") -> str:
-    return chr(int(sign[1], 16)) if sign[1] else {"n": "\n"}.get(sign[2], sign[2])
 
 
 def _who(participant: Parent) -> str:
@@ -262,18 +276,15 @@ def _leg(velocity: Vector, acceleration: Vector = (0, 0, 0), turn_degps: float =
 
 
 class Handle:
-    """An object of the world, by its name. Assigning a property is the change."""
+    """An object of the world. Assigning a property is the change."""
 
-    def __init__(self, world: World, node: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
-        self._world, self.node = world, node
+    def __init__(self, world: World, node: str, name: str, position: Vector, wxyz: Vector, scale: Vector, visible: bool) -> None:
+        self._world, self.node, self.name = world, node, name
+        """`node` is its word in a line; `name` is as events and calls name it: #NUMBER where it has no name of its own."""
         self._position, self._wxyz, self._scale, self._visible = tuple(position), tuple(wxyz), tuple(scale), visible
-        self._is_moving = False
         self._solid: Solid = False
-
-    @property
-    def name(self) -> str:
-        """As events and calls name it; #NUMBER where it has no name of its own."""
-        return _unquoted(self.node)
+        self.messages: list[str] = []
+        """What add() has said of its file: the size by axes, and a sentence for each thing that is left out. In a batch: Batch.messages."""
 
     def __repr__(self) -> str:
         return f"<septet.Handle {self.node} at {self._position}>"
@@ -282,11 +293,8 @@ class Handle:
         position, wxyz, scale = tuple(map(float, position)), tuple(map(float, wxyz)), tuple(map(float, scale))
         if (len(position), len(wxyz), len(scale)) != (3, 4, 3):
             raise ValueError("a position is x, y, z, a rotation w, x, y, z, a scale x, y, z")
-        self._world._change(f"transform-set {self.node} {_numbers(position)} {_numbers(wxyz)} {_numbers(scale)}")
+        self._world._change(f"move {self.node} {_numbers(position)} {_numbers(wxyz)} {_numbers(scale)}")
         self._position, self._wxyz, self._scale = position, wxyz, scale
-        if self._is_moving:
-            self._world._change(f"motion-set {self.node} 0 0 0 0 1 0 0 0 0")
-        self._is_moving = False
 
     def go(self, velocity: Vector, acceleration: Vector = (0, 0, 0), turn_degps: float = 0.0, then: Iterable[tuple[Any, ...]] = ()) -> None:
         """In motion from where it is, m/s, m/s² and degrees a second about the vertical, until a position is assigned.
@@ -297,7 +305,6 @@ class Handle:
         for after_s, *leg in then:
             line += f" then {float(after_s)!r} {_leg(*leg)}"
         self._world._change(line)
-        self._is_moving = True
 
     @property
     def position(self) -> tuple[float, ...]:
@@ -380,7 +387,7 @@ class Batch:
 
     def __init__(self, world: World, at_tick: Optional[int]) -> None:
         self._world, self._at_tick, self._lines = world, at_tick, []  # type: World, Optional[int], list[str]
-        self._answer: Optional[Future[int]] = None
+        self._answer: Optional[Future[_Done]] = None
 
     def __enter__(self) -> Batch:
         if self._world._batch is not None:
@@ -399,9 +406,17 @@ class Batch:
 
     def result(self, timeout_s: float = 60.0) -> int:
         """The first tick that shows them; waits for it. Raises Refused."""
+        return self._done(timeout_s).tick
+
+    @property
+    def messages(self) -> list[str]:
+        """What is said of the files that it has added, in their order, as of Handle.messages. Waits as result() does."""
+        return self._done(60.0).messages
+
+    def _done(self, timeout_s: float) -> _Done:
         if self._answer is None:
             raise RuntimeError("the batch is empty, or not closed yet")
-        return int(self._answer.result(timeout_s))
+        return self._answer.result(timeout_s)
 
 
 class World:
@@ -413,7 +428,9 @@ class World:
         self._asked: dict[int, Future[Any]] = {}
         self._requests = 0
         self._news = threading.Condition()
-        self._ticks: collections.deque[Tick] = collections.deque()
+        self._writing = threading.Lock()  # Held while a pipe may be full; the thread that empties the other one needs `_news` alone.
+        self._waiting = _Backlog()  # For the loop that begins next, as long as there is no loop.
+        self._loops: list[_Backlog] = []
         self._stepped: Optional[Tick] = None
         self._handlers: dict[str, list[Callable[..., Any]]] = {"tick": [], "end": [], "message": []}
         self._call_handlers: list[tuple[Optional[str], Optional[str], Callable[[Call], Any]]] = []
@@ -428,7 +445,8 @@ class World:
         self.missed_ticks = 0
         self.why_ended: Optional[str] = None
         self._errors: list[str] = []
-        threading.Thread(target=self._read_errors, daemon=True).start()
+        self._error_reader = threading.Thread(target=self._read_errors, daemon=True)
+        self._error_reader.start()
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
@@ -480,17 +498,13 @@ class World:
     def find(self, pattern: str = "*", near: Optional[tuple[float, float, float]] = None) -> list[Handle]:
         """Objects whose names match (* and ?), `near` (x, y, metres); a thousand at most."""
         line = f"find {_word(pattern)}" + ("" if near is None else f" near {_numbers(near)}")
-        return [
-            Handle(self, one["node"], one["position"], one["wxyz"], one["scale"], one["visible"])
-            for one in self._ask([line]).result(60.0)
-            if "position" in one
-        ]
+        return [self._found(one) for one in self._ask([line]).result(60.0) if "position" in one]
 
     def get(self, name: str) -> Handle:
         """The object of this name. Raises KeyError."""
         for one in self._ask([f"find {_word(name)}"]).result(60.0):
             if one["name"] == name:
-                return Handle(self, one["node"], one["position"], one["wxyz"], one["scale"], one["visible"])
+                return self._found(one)
         raise KeyError(name)
 
     def batch(self, at_tick: Optional[int] = None) -> Batch:
@@ -502,7 +516,7 @@ class World:
 
         Raises Refused where there is none, or somebody else has changed one of its things since. Handles do not notice it.
         """
-        return int(self._ask(["undo"]).result(60.0))
+        return int(self._ask(["undo"]).result(60.0).tick)
 
     def save(self, file: Path) -> None:
         """Writes what differs from the world as it was when this script came, for `septet drive --edits`."""
@@ -514,7 +528,7 @@ class World:
         """A line of an operator's, as docs/editing.md has them; the tick after which it was done."""
         if "\n" in line:
             raise ValueError("a line has no end within")
-        return int(self._ask([f"operate {line}"]).result(60.0))
+        return int(self._ask([f"operate {line}"]).result(60.0).tick)
 
     def call(self, name: str, node: Optional[Union["Handle", str]] = None, **parameters: Any) -> int:
         """One message to all who listen to the drive, about a thing or none: call("lift", node="stimuli/barrier", seconds=3).
@@ -523,7 +537,7 @@ class World:
         """
         about = "none" if node is None else node.node if isinstance(node, Handle) else _word(node)
         words = [_word(f"{key}={value}") for key, value in parameters.items()]
-        return int(self._ask([" ".join(["call", about, _word(name), *words])]).result(60.0))
+        return int(self._ask([" ".join(["call", about, _word(name), *words])]).result(60.0).tick)
 
     def mark(self, text: str) -> int:
         """A mark in the log, at this tick."""
@@ -566,27 +580,35 @@ class World:
     # ---- ticks
 
     def ticks(self, every: int = 1) -> Iterator[Tick]:
-        """Each tick as it comes, or every n-th, until the drive ends. For one that was missed the next that comes stands in, and has its events."""
-        self._want_ticks()
-        chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
-        while (tick := self._next_tick()) is not None:
-            tick = _joined(passed, tick)
-            passed = None if (taken := chosen.takes(tick.tick)) else tick
-            if taken:
-                yield tick
+        """Each tick as it comes, or every n-th, until the drive ends. For one that was missed the next that comes stands in, and has its events.
+
+        Loops beside each other each have all ticks from their beginning on."""
+        backlog = self._begin_loop()
+        try:
+            chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
+            while (tick := self._next_tick(backlog)) is not None:
+                tick = _joined(passed, tick)
+                passed = None if (taken := chosen.takes(tick.tick)) else tick
+                if taken:
+                    yield tick
+        finally:
+            self._end_loop(backlog)
 
     async def aticks(self, every: int = 1) -> AsyncIterator[Tick]:
         """The same for asyncio."""
-        self._want_ticks()
-        chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
-        while (tick := await asyncio.get_running_loop().run_in_executor(None, self._next_tick)) is not None:
-            tick = _joined(passed, tick)
-            passed = None if (taken := chosen.takes(tick.tick)) else tick
-            if taken:
-                yield tick
+        backlog = self._begin_loop()
+        try:
+            chosen, passed = _Every(every), None  # type: _Every, Optional[Tick]
+            while (tick := await asyncio.get_running_loop().run_in_executor(None, self._next_tick, backlog)) is not None:
+                tick = _joined(passed, tick)
+                passed = None if (taken := chosen.takes(tick.tick)) else tick
+                if taken:
+                    yield tick
+        finally:
+            self._end_loop(backlog)
 
     def on(self, what: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-        """`@world.on("tick")`, "end", "message": called in the connection's own thread; such a handler must not change the world."""
+        """`@world.on("tick")`, "end", "message": called in the connection's own thread; such a handler must not change the world. What one raises is printed."""
         def register(handler: Callable[..., Any]) -> Callable[..., Any]:
             self._handlers[what].append(handler)
             if what == "tick":
@@ -660,6 +682,10 @@ class World:
                 except Exception:
                     traceback.print_exc()
 
+    def _found(self, one: dict[str, Any]) -> Handle:
+        name = one["name"] or f"#{one['id']}"
+        return Handle(self, one["node"], name, one["position"], one["wxyz"], one["scale"], one["visible"])
+
     def _made(
         self, name: str, line: str, position: Vector, heading_deg: float, lifetime_s: Optional[float], parent: Optional[Parent], solid: Solid
     ) -> Handle:
@@ -670,17 +696,18 @@ class World:
             lines.append(f"hang {_word(name)} {_who(parent)}")
         if solid is not False:
             lines.append(f"solid {_word(name)}{_solid(solid)}")
-        self._change(*lines)
-        made = Handle(self, _word(name), position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
-        made._solid = solid
+        messages = self._change(*lines)
+        made = Handle(self, _word(name), name, position, _turned(heading_deg), (1.0, 1.0, 1.0), True)
+        made._solid, made.messages = solid, messages
         return made
 
-    def _change(self, *lines: str) -> None:
-        """One line, or several that are one batch."""
+    def _change(self, *lines: str) -> list[str]:
+        """One line, or several that are one batch; returns what is said of them."""
         if self._batch is not None:
             self._batch.extend(lines)
-        else:
-            self._ask(list(lines) if len(lines) == 1 else ["begin", *lines, "commit"]).result(60.0)
+            return []
+        done: _Done = self._ask(list(lines) if len(lines) == 1 else ["begin", *lines, "commit"]).result(60.0)
+        return done.messages
 
     def _file(self, content: Union[Path, bytes], ending: str) -> str:
         if not isinstance(content, bytes):
@@ -695,11 +722,12 @@ class World:
 
     def _ask(self, lines: list[str]) -> Future[Any]:
         answer: Future[Any] = Future()
-        with self._news:
-            if self.why_ended is not None or self._process.stdin is None or self._process.stdin.closed:
-                raise Ended(self.why_ended or "the connection is closed")
-            self._requests += 1
-            self._asked[self._requests] = answer
+        with self._writing:
+            with self._news:
+                if self.why_ended is not None or self._process.stdin is None or self._process.stdin.closed:
+                    raise Ended(self.why_ended or "the connection is closed")
+                self._requests += 1
+                self._asked[self._requests] = answer
             try:
                 self._process.stdin.write("\n".join(lines) + "\n")
                 self._process.stdin.flush()
@@ -712,10 +740,24 @@ class World:
             self._tells_ticks = True
             self._ask(["ticks on"])
 
-    def _next_tick(self) -> Optional[Tick]:
+    def _begin_loop(self) -> _Backlog:
+        self._want_ticks()
         with self._news:
-            self._news.wait_for(lambda: self._ticks or self.why_ended is not None)
-            return self._ticks.popleft() if self._ticks else None
+            backlog, self._waiting = self._waiting, _Backlog()
+            self._loops.append(backlog)
+        return backlog
+
+    def _end_loop(self, backlog: _Backlog) -> None:
+        """What it leaves waits for the next loop, unless another one has it already."""
+        with self._news:
+            self._loops.remove(backlog)
+            if not self._loops:
+                self._waiting = backlog
+
+    def _next_tick(self, backlog: _Backlog) -> Optional[Tick]:
+        with self._news:
+            self._news.wait_for(lambda: backlog.ticks or self.why_ended is not None)
+            return backlog.ticks.popleft() if backlog.ticks else None
 
     def _read_errors(self) -> None:
         assert self._process.stderr
@@ -731,14 +773,22 @@ class World:
                 why = row["why"]
             else:
                 self._take(row)
+        if not self.hello:
+            self._error_reader.join(10.0)  # It has the reason.
         with self._news:
-            self.why_ended = self._errors[-1] if self._errors and not self.hello else why
+            self.why_ended = "\n".join(self._errors) if self._errors and not self.hello else why
             for answer in self._asked.values():
                 answer.set_exception(Ended(self.why_ended))
             self._asked.clear()
             self._news.notify_all()
-        for handler in self._handlers["end"]:
-            handler(self.why_ended)
+        self._tell("end", self.why_ended)
+
+    def _tell(self, what: str, news: Any) -> None:
+        for handler in list(self._handlers[what]):
+            try:
+                handler(news)
+            except Exception:
+                traceback.print_exc()
 
     def _take(self, row: dict[str, Any]) -> None:
         kind = row["type"]
@@ -747,20 +797,17 @@ class World:
             with self._news:
                 self.newest = tick
                 self._stepped = _joined(self._stepped, tick)
-                if len(self._ticks) == MOST_TICKS_KEPT:
-                    self._ticks[1] = _joined(self._ticks[0], self._ticks[1])
-                    self._ticks.popleft()
-                    self.missed_ticks += 1
-                self._ticks.append(tick)
+                for backlog in self._loops or [self._waiting]:
+                    self.missed_ticks += backlog.keep(tick)
                 self._news.notify_all()
             if self._calls is not None:
                 for call in tick.calls:
                     self._calls.put(call)
-            for handler in self._handlers["tick"]:
-                handler(tick)
+            self._tell("tick", tick)
         elif kind == "message":
-            for handler in self._handlers["message"]:
-                handler(row["text"])
+            if not self.hello:
+                self._errors.append(row["text"])  # What hinders it.
+            self._tell("message", row["text"])
         elif kind == "hello":
             with self._news:
                 self.hello = row
@@ -775,7 +822,7 @@ class World:
             elif kind == "lines":
                 answer.set_result(row["lines"])
             elif row["ok"]:
-                answer.set_result(row["tick"])
+                answer.set_result(_Done(row["tick"], row["messages"]))
             else:
                 failures = [Failure(one["line"], one["text"], one["node"], one["why"]) for one in row["failures"]]
                 answer.set_exception(Refused(failures, row["others"]))

@@ -99,6 +99,13 @@ void add_drive_commands(CLI::App& app, Options& options) {
       drive_command->add_option("--driver", options.drive.driver, "A simulated driver of septet list drivers drives")
           ->default_str("the rig's");
   drive_command
+      ->add_option("--to", options.drive.to,
+                   "Guide the driver to a place: a road's name or id, id:s in metres, or x,y (docs/guidance.md)")
+      ->type_name("PLACE")
+      ->default_str("nobody guides");
+  drive_command->add_option("--language", options.drive.language, "Of spoken guidance")
+      ->check(CLI::IsMember({"en", "de", "sv"}));
+  drive_command
       ->add_option("--motion", options.drive.motion,
                    "Nobody drives: the car goes by a table, a path or an event data recorder's (docs/given-motion.md)")
       ->type_name("FILE")

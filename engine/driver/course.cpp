@@ -13,6 +13,7 @@
 #include "engine/road/turn.hpp"
 #include "engine/world/participant_shape.hpp"
 #include "engine/world/participant_sight.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/traffic_light.hpp"
 #include "engine/world/vehicle_model.hpp"
 
@@ -31,6 +32,8 @@ constexpr double start_s = 1.2;  ///< To drive off.
 constexpr double doubt_s = 0.5;
 /// A driver indicates after the previous exit has been passed, or at the fork.
 constexpr double farthest_signal_m = 40.0, turn_before_m = 16.0;
+/// Share of the acceleration in a bend that is taken in a turn, where hands have far to go.
+constexpr double in_turns = 0.6;
 constexpr double stands_before_m = 1.2, overrun_m = 1.0;
 
 /// Permitted excess of the squared speed here over the squared target so far ahead.
@@ -47,8 +50,15 @@ double allowed_speed_mps(const DriverParameters& driver, const road::RoadNetwork
     if (!corridor.closed && x >= corridor.length_m) break;
     const road::LanePosition there = traffic::position_at(corridor, x, own.lane);
     const double slower = slower_m2ps2(driver.course, own, ahead_m);
-    const double curvature = std::abs(road::evaluate_lane(network, there).road.curvature_per_m);
-    if (curvature > 1e-6) allowed = std::min(allowed, std::sqrt(driver.course.bend_mps2 / curvature + slower));
+    const road::LanePoint point = road::evaluate_lane(network, there);
+    double curvature = std::abs(point.road.curvature_per_m);
+    double bend_mps2 = driver.course.bend_mps2;
+    if (corridor.is_route) {
+      // Turns at crossings are as tight as the lane is beside its line.
+      curvature /= std::max(0.3, 1.0 - point.road.curvature_per_m * point.t_m);
+      bend_mps2 *= in_turns;
+    }
+    if (curvature > 1e-6) allowed = std::min(allowed, std::sqrt(bend_mps2 / curvature + slower));
     const double limit = road::speed_limit_mps(network, there) * driver.speed.limit_factor;
     if (limit > 0.0 && ahead_m > 0.0) allowed = std::min(allowed, std::sqrt(limit * limit + slower));
   }
@@ -66,6 +76,8 @@ Lamps light_at(const Snapshot& snapshot, const traffic::YieldLine& line) {
 
 /// The lane's path beyond a line.
 std::vector<Vec2> way_at(const CourseLine& ahead, const road::RoadNetwork& network, const OwnPlace& own) {
+  if (ahead.lane != 0)
+    return traffic::way_beyond(network, ahead.line.kind, {ahead.line.road, ahead.lane, ahead.line.s_m, 0.0});
   const int lane = ahead.line.along_s ? -own.lane : own.lane;
   const bool right_hand = network.roads[ahead.line.road].rule == road::TrafficRule::right_hand;
   return traffic::way_beyond(network, ahead.line.kind,
@@ -79,7 +91,8 @@ bool is_somebody_at(const CourseLine& ahead, const road::RoadNetwork& network, s
   if (way.empty()) return false;
   const Vec2 middle = way[way.size() / 2];
   return std::ranges::any_of(around, [&](const Participant& other) {
-    return vehicle_models()[other.model].kind == ParticipantKind::pedestrian &&
+    const bool walks_by = is_person_of_swarm(other.id) && !other.lamps.has(Lamp::signal_green);
+    return vehicle_models()[other.model].kind == ParticipantKind::pedestrian && !walks_by &&
            glm::distance(Vec2(other.world_from_vehicle.position_m), middle) < edge_of_crossing_m;
   });
 }
@@ -148,12 +161,18 @@ CourseState read_course(const road::RoadNetwork& network, const traffic::Corrido
     const traffic::CorridorPiece& piece = corridor.pieces[k];
     for (const traffic::YieldLine& line : lines) {
       if (line.road != piece.road || line.along_s != piece.along_s) continue;
-      const double x_m = piece.x_m + (piece.along_s ? line.s_m : piece.length_m - line.s_m);
+      // On a route give-way lines are minded with all else that has right of way (junction_gaps.hpp).
+      if (corridor.is_route &&
+          (line.kind == LineKind::give_way || line.s_m < piece.from_s_m || line.s_m > piece.from_s_m + piece.length_m))
+        continue;
+      const double x_m = traffic::x_on_piece(piece, line.s_m);
       const bool is_last = k + 1 == corridor.pieces.size();
       const bool gives_way = line.kind == LineKind::give_way && !is_last;
-      state.lines.push_back({x_m, line, gives_way ? view_of(views, corridor.pieces[k + 1]) : std::nullopt});
+      state.lines.push_back({x_m, line, gives_way ? view_of(views, corridor.pieces[k + 1]) : std::nullopt,
+                             corridor.is_route ? piece.lane : 0});
     }
-    const int side = road::turn_through(network, piece.road, piece.side, piece.along_s);
+    const int side =
+        road::turn_through(network, piece.road, corridor.is_route ? piece.lane : piece.side, piece.along_s);
     if (side != 0) state.turns.push_back({piece.x_m, piece.x_m + piece.length_m, side});
   }
   std::ranges::stable_sort(state.lines, {}, &CourseLine::x_m);

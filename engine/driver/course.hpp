@@ -28,6 +28,7 @@ struct CourseLine {
   double x_m = 0.0;
   traffic::YieldLine line;
   std::optional<traffic::ApproachView> view;  ///< Empty: nobody beyond it has right of way.
+  int lane = 0;                               ///< On a route: the lane in which it leads over the line.
 };
 struct CourseTurn {
   double begins_m = 0.0, ends_m = 0.0;

@@ -13,16 +13,19 @@ namespace septet::driver {
 namespace {
 
 constexpr double acceleration_seen_in_s = 0.5;
-constexpr double gap_step_m = 60.0;  ///< Gaps are those along the lane, as well as eyes measure them.
-constexpr double foresight_s = 1.0;  ///< A vehicle that crosses a line is noticed this much earlier.
+constexpr double gap_step_m = 60.0;          ///< Gaps are those along the lane, as well as eyes measure them.
+constexpr double foresight_s = 1.0;          ///< A vehicle that crosses a line is noticed this much earlier.
+constexpr double crossing_foreseen_s = 4.0;  ///< The way of one who comes across is thought on for this long.
+constexpr double would_brake_mps2 =
+    4.0;                            ///< A vehicle that can still stop like this before the lanes is taken to do so.
+constexpr double across_cos = 0.7;  ///< Who moves at more than 45° to the road comes across.
 
 Vec2 ground_position(const Participant& participant) { return Vec2(participant.world_from_vehicle.position_m); }
 
 /// Along the corridor; 0 off it.
 double x_on(const traffic::Corridor& corridor, const road::RoadPosition& place) {
-  const auto piece = std::ranges::find(corridor.pieces, place.road, &traffic::CorridorPiece::road);
-  if (piece == corridor.pieces.end()) return 0.0;
-  return piece->x_m + (piece->along_s ? place.s_m : piece->length_m - place.s_m);
+  const traffic::CorridorPiece* piece = traffic::piece_of(corridor, place);
+  return piece ? traffic::x_on_piece(*piece, place.s_m) : 0.0;
 }
 
 /// Place on the corridor, where other roads of a junction overlap: the one nearest along it to the expected place.
@@ -99,7 +102,7 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network, const tr
   OwnPlace own;
   own.position = location->position;
   own.x_m = *x_m;
-  own.lane = std::abs(location->lanes.lane);
+  own.lane = std::abs(location->lanes.lane) + traffic::piece_at(corridor, *x_m).lane_shift;
   own.offset_m = to_the_left(traffic::piece_at(corridor, *x_m), location->lanes.offset_m);
   own.across_m = to_the_left(traffic::piece_at(corridor, *x_m), location->position.t_m);
   own.half_width_m = model.width_m / 2.0;
@@ -114,6 +117,31 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network, const tr
   return own;
 }
 
+namespace {
+
+/// True for one who comes across the driver's road; `ahead`: its direction.
+bool comes_across(const Participant& other, const Vec2& ahead) {
+  const Vec2 moves = Vec2(other.velocity_mps);
+  return glm::length(moves) > 0.3 && std::abs(glm::dot(moves, ahead)) < across_cos * glm::length(moves);
+}
+
+/// The place that counts of one who comes across: where he is, if that is in lanes of the driver's side, else where he will be
+/// when the car has come to him, as he moves now. A vehicle without siren that can still stop before it will not be there.
+Vec2 place_across(const road::RoadNetwork& network, const Participant& other, const road::RoadPosition& hint, int side,
+                  const OwnPlace& own, double ahead_m) {
+  const Vec2 here = ground_position(other), moves = Vec2(other.velocity_mps);
+  const VehicleModel shape = shape_of(other);
+  const auto now = road::locate(network, here, &hint);
+  if (now && now->lanes.lane * side > 0 && !lanes_taken(network, now->position, other, shape, 0.0).empty()) return here;
+  const double until_s = std::clamp((ahead_m - own.front_m) / std::max(own.speed_mps, 1.0), 0.0, crossing_foreseen_s);
+  const bool may_stop = shape.kind != ParticipantKind::pedestrian && !other.lamps.has(Lamp::siren);
+  const double stops_m = glm::dot(moves, moves) / (2.0 * would_brake_mps2) + shape.front_m();
+  if (may_stop && until_s * glm::length(moves) > stops_m) return here;
+  return here + until_s * moves;
+}
+
+}  // namespace
+
 std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const traffic::Corridor& corridor,
                                       std::span<const Participant> around, ParticipantId self, const OwnPlace& own) {
   std::vector<SeenVehicle> seen;
@@ -127,12 +155,15 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const tr
     if (other.id == self || glm::distance(ground_position(other), here) > looked_for_within_m) continue;
     road::RoadPosition hint = own.position;
     hint.s_m += glm::dot(ground_position(other) - here, forward);
-    const Vec2 there = ground_position(other);
+    const VehicleModel model = shape_of(other);
+    const int side = traffic::piece_at(corridor, own.x_m).side;
+    const double ahead_of_car_m = glm::dot(ground_position(other) - here, ahead_along_s * forward);
+    const bool across = ahead_of_car_m > own.front_m && comes_across(other, forward);
+    const Vec2 there = across ? place_across(network, other, hint, side, own, ahead_of_car_m) : ground_position(other);
     const auto location = on_corridor(network, corridor, road::locate(network, there, &hint), there,
                                       own.x_m + glm::dot(there - here, ahead_along_s * forward));
-    const int side = traffic::piece_at(corridor, own.x_m).side;
-    if (!location || location->lanes.lane * side <= 0) continue;
-    const VehicleModel model = shape_of(other);
+    // On a route x_of tells sides apart.
+    if (!location || (!corridor.is_route && location->lanes.lane * side <= 0)) continue;
     const double sideways = sideways_mps(network, location->position, other);
     const road::LaneRange lanes = lanes_taken(network, location->position, other, model, sideways);
     if (lanes.empty()) continue;
@@ -141,9 +172,10 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const tr
     const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1, 0, 0);
     SeenVehicle vehicle;
     vehicle.id = other.id;
-    vehicle.lane = std::abs(location->lanes.lane);
-    vehicle.innermost_lane = std::min(std::abs(lanes.lowest), std::abs(lanes.highest));
-    vehicle.outermost_lane = std::max(std::abs(lanes.lowest), std::abs(lanes.highest));
+    const int shift = traffic::piece_at(corridor, *x_m).lane_shift;
+    vehicle.lane = std::abs(location->lanes.lane) + shift;
+    vehicle.innermost_lane = std::min(std::abs(lanes.lowest), std::abs(lanes.highest)) + shift;
+    vehicle.outermost_lane = std::max(std::abs(lanes.lowest), std::abs(lanes.highest)) + shift;
     const double ahead_m = traffic::length_along_lane_m(network, corridor, own.lane, own.x_m,
                                                         traffic::distance_m(corridor, own.x_m, *x_m), gap_step_m);
     const traffic::CorridorPiece& piece = traffic::piece_at(corridor, *x_m);
@@ -154,7 +186,9 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const tr
     vehicle.is_ahead = ahead_m + model.centre_x_m() > (own.front_m - own.rear_m) / 2.0;
     vehicle.gap_m =
         vehicle.is_ahead ? ahead_m - model.rear_overhang_m - own.front_m : -ahead_m - model.front_m() - own.rear_m;
-    vehicle.speed_mps = glm::dot(other.velocity_mps, heads);
+    // Who comes across goes nowhere along the road.
+    vehicle.speed_mps =
+        across ? ahead_along_s * glm::dot(Vec2(other.velocity_mps), forward) : glm::dot(other.velocity_mps, heads);
     vehicle.is_ambulance = model.kind == ParticipantKind::ambulance && other.lamps.has(Lamp::beacon);
     if (other.lamps.has(Lamp::indicator_left) && other.lamps.has(Lamp::indicator_right)) vehicle.warned_ago_s = 0.0;
     seen.push_back(vehicle);

@@ -50,6 +50,12 @@ double value_of(const LaneScene& scene, int lane, const DriverParameters& driver
 
 /// The adjacent lane that is worth a change, or the present one.
 int wished_lane(const LaneScene& scene, const DriverParameters& driver) {
+  if (scene.wanted_lane) {
+    const int towards = *scene.wanted_lane - scene.own.lane;
+    if (towards < 0 && scene.open_inside) return scene.own.lane - 1;
+    if (towards > 0 && scene.open_outside) return scene.own.lane + 1;
+    return scene.own.lane;
+  }
   int best = scene.own.lane;
   double best_value = value_of(scene, scene.own.lane, driver) + driver.lanes.threshold_mps2;
   for (const int lane : {scene.own.lane - 1, scene.own.lane + 1}) {
@@ -168,7 +174,7 @@ void advance_lane_choice(LaneState& state, const DriverParameters& driver, const
       state.next_thought_s -= dt_s;
       if (state.next_thought_s > 0.0) return;
       state.next_thought_s = thought_interval_s;
-      if (state.since_change_s < driver.lanes.pause_s || scene.own.speed_mps < 3.0) return;
+      if (state.since_change_s < (scene.wanted_lane ? 1.0 : driver.lanes.pause_s) || scene.own.speed_mps < 3.0) return;
       state.target = wished_lane(scene, driver);
       if (state.target != state.lane && begin_glance(mirrors, mirror_of_target(), driver.mirrors, random))
         enter(state, LanePhase::look);

@@ -55,6 +55,8 @@ struct LaneScene {
   bool open_inside = false,
        open_outside = false;    ///< The lanes one number less and one more are drivable, here and ahead.
   double lane_ends_in_m = 1e9;  ///< For the present lane.
+  /// On a route: the lane for its next turn, to which alone lanes are changed.
+  std::optional<int> wanted_lane;
 };
 
 /// The vehicle ahead in a lane that requires the most braking; empty: none. An ambulance counts in every lane: it is

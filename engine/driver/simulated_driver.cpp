@@ -13,7 +13,9 @@ namespace septet::driver {
 namespace {
 
 constexpr double look_around_interval_s = 0.05;
-constexpr double all_snow_cover = 0.3;    ///< Cover from which a road counts as completely snowy.
+constexpr double all_snow_cover = 0.3;  ///< Cover from which a road counts as completely snowy.
+/// On a route: a lane open for this far may be changed to, and the goal is where the car's middle stands at the end.
+constexpr double room_to_change_m = 40.0, stops_past_goal_m = 5.0;
 constexpr double lane_preview_m = 300.0;  ///< A lane counts as open if it is so for this far.
 
 /// A point of the lane's centre, or of the path between two while changing.
@@ -83,9 +85,11 @@ double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork&
                          double snow_cover, const std::optional<double>& sight_m) {
   const SpeedParameters& speed = driver.parameters.speed;
   const double limit = road::speed_limit_mps(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
-  const double dry = limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps;
+  const double unposted_mps = driver.corridor->is_route ? traffic::unposted_mps : speed.desired_speed_mps;
+  const double dry = limit > 0.0 ? limit * speed.limit_factor : unposted_mps;
   const double snow = std::clamp(snow_cover / all_snow_cover, 0.0, 1.0);
-  const double wish = std::min(dry * (1.0 - snow * (1.0 - speed.on_snow)), driver.course.speed_mps);
+  const double wish = std::min(dry * (1.0 - snow * (1.0 - speed.on_snow)),
+                               std::min(driver.course.speed_mps, driver.junction.speed_mps));
   if (!sight_m) return wish;
   return std::min(
       wish, sight::stopping_speed_mps(*sight_m - speed.standstill_gap_m, speed.reaction_time_s, speed.braking_mps2));
@@ -102,6 +106,16 @@ std::optional<Obstacle> obstacle_ahead(const SimulatedDriver& driver, LaneScene 
   auto vehicle = obstacle_on_way(driver.lanes, scene, driver.parameters.speed);
   const auto line = line_ahead(driver.course, scene.own, driver.parameters.speed);
   if (line && wish_mps2(line) < wish_mps2(vehicle)) vehicle = line;
+  if (driver.junction.crossed_at_m) {
+    const double gap_m = *driver.junction.crossed_at_m - scene.own.x_m - scene.own.front_m;
+    const std::optional<Obstacle> across = Obstacle{gap_m + 0.5 * driver.parameters.speed.standstill_gap_m, 0.0};
+    if (wish_mps2(across) < wish_mps2(vehicle)) vehicle = across;
+  }
+  if (driver.junction.waits_at_m) {
+    const double left_m = *driver.junction.waits_at_m - scene.own.x_m - scene.own.front_m;
+    const std::optional<Obstacle> at_junction = Obstacle{left_m + driver.parameters.speed.standstill_gap_m, 0.0};
+    if (wish_mps2(at_junction) < wish_mps2(vehicle)) vehicle = at_junction;
+  }
   if (scene.lane_ends_in_m >= lane_preview_m) return vehicle;
   const std::optional<Obstacle> end = Obstacle{scene.lane_ends_in_m, 0.0};
   return wish_mps2(end) < wish_mps2(vehicle) ? end : vehicle;
@@ -122,6 +136,36 @@ DriverInput stop_off_road(SimulatedDriver& driver, double dt_s) {
   return input;
 }
 
+/// Goes by the route that he is told, if there is one: another corridor where it is new, or the old one ends soon.
+void follow_route(SimulatedDriver& driver, const road::RoadNetwork& network, const Snapshot& snapshot) {
+  const bool is_new = learn_route(driver.route, network, snapshot);
+  if (is_new && !driver.route.leads()) driver.corridor.reset();
+  if (!driver.route.leads()) return;
+  const Participant* body = find_participant(snapshot, snapshot.driver_car.participant);
+  const auto x_m = [&] {
+    const auto own = see_own_place(network, *driver.corridor, snapshot, driver.place);
+    return own ? own->x_m : driver.corridor->pieces.front().x_m;
+  };
+  const bool goes_on = driver.corridor && driver.corridor->is_route && !is_new;
+  if (!body || (goes_on && !needs_more(driver.route, *driver.corridor, x_m()))) return;
+  const traffic::Corridor* before = driver.corridor ? &*driver.corridor : nullptr;
+  auto corridor = route_corridor(driver.route, network, snapshot, before);
+  if (!corridor) return;
+  const bool continues = before && before->is_route;
+  driver.corridor = std::move(corridor);
+  CourseState course = read_course(network, *driver.corridor, driver.views);
+  if (continues) {
+    driver.course.lines = std::move(course.lines);
+    driver.course.turns = std::move(course.turns);
+    return;
+  }
+  driver.course = std::move(course);
+  driver.lanes = {};
+  driver.vehicles.clear();
+  driver.foot_eyes = {};
+  driver.minded.clear();
+}
+
 }  // namespace
 
 void learn_views(SimulatedDriver& driver, const road::RoadNetwork& network, std::vector<traffic::ApproachView> views) {
@@ -133,6 +177,7 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
   driver.now_s += dt_s;
   ++driver.sequence;
   if (snapshot.game && !std::exchange(driver.plays, true)) driver.parameters = playing(driver.parameters);
+  follow_route(driver, network, snapshot);
   if (!driver.corridor) {
     driver.corridor = find_corridor(network, snapshot);
     if (driver.corridor) driver.course = read_course(network, *driver.corridor, driver.views);
@@ -145,6 +190,7 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
     driver.lanes = {};
     driver.tracks = {};
     driver.known = {};
+    driver.junction = {};
     DriverInput input = stop_off_road(driver, dt_s);
     input.sequence = driver.sequence;
     return input;
@@ -163,6 +209,14 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
     driver.next_look_around_s = driver.now_s + look_around_interval_s;
     look_at_course(driver.course, driver.parameters, network, *driver.corridor, snapshot, driver.known.bodies, *own,
                    driver.now_s, look_around_interval_s, driver.eyes_random);
+    if (driver.corridor->is_route)
+      look_at_junction(driver.junction, driver.route, *driver.corridor, driver.parameters.course, network,
+                       driver.known.bodies, body->id, *own, driver.vehicles, driver.course.judgement.value,
+                       look_around_interval_s);
+    driver.junction.crossed_at_m =
+        driver.corridor->is_route && is_at_junction(driver.route, *driver.corridor, own->x_m)
+            ? crossed_at_m(*driver.corridor, network, driver.known.bodies, body->id, *own, own->lane)
+            : std::nullopt;
     const LaneChoiceParameters& lanes = driver.parameters.lanes;
     if (driver.lanes.phase == LanePhase::keep && lanes.in_tracks_within_m > 0.0)
       look_at_tracks(driver.tracks, *driver.corridor, *own, driver.vehicles, lanes.in_tracks_within_m,
@@ -177,6 +231,15 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
   scene.open_inside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane - 1));
   scene.open_outside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane + 1));
   scene.lane_ends_in_m = std::min(1e9, open_for_m(network, *driver.corridor, own->x_m, driver.lanes.lane));
+
+  if (driver.corridor->is_route) {
+    const WantedLane wanted = wanted_lane(driver.route, *driver.corridor, own->x_m);
+    scene.wanted_lane = wanted.lane;
+    scene.open_inside = open_for_m(network, *driver.corridor, own->x_m, own->lane - 1) >= room_to_change_m;
+    scene.open_outside = open_for_m(network, *driver.corridor, own->x_m, own->lane + 1) >= room_to_change_m;
+    const double goal_m = driver.route.goal_x_m - own->x_m - own->front_m + stops_past_goal_m;
+    scene.lane_ends_in_m = std::min(scene.lane_ends_in_m, std::max(0.5, goal_m));
+  }
 
   const PathAngles path = see_path(driver, network, *body, *own);
   const bool at_ease = std::abs(path.near_rad) * parameters.steering.near_distance_m < parameters.mirrors.ease_m;

@@ -18,10 +18,12 @@
 #include "engine/driver/driver_parameters.hpp"
 #include "engine/driver/driver_view.hpp"
 #include "engine/driver/gears.hpp"
+#include "engine/driver/junction_gaps.hpp"
 #include "engine/driver/known_world.hpp"
 #include "engine/driver/lane_choice.hpp"
 #include "engine/driver/mirrors.hpp"
 #include "engine/driver/pedals.hpp"
+#include "engine/driver/route_ahead.hpp"
 #include "engine/driver/steering.hpp"
 #include "engine/driver/warning.hpp"
 #include "engine/world/driver_input.hpp"
@@ -55,6 +57,8 @@ struct SimulatedDriver {
   LaneState lanes;
   TracksState tracks;
   CourseState course;
+  RouteAhead route;  ///< Where he is told one.
+  JunctionState junction;
   WarningState warning;
   bool plays = false;  ///< Has noticed that this is a game.
   std::uint8_t sequence = 0;

@@ -18,6 +18,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/editor/shapes.hpp"
+#include "engine/editor/shown_pose.hpp"
 #include "engine/gltf/gltf.hpp"
 #include "engine/image/png.hpp"
 #include "engine/image/srgb.hpp"
@@ -54,6 +55,33 @@ std::optional<std::vector<double>> numbers(Words words) {
 
 Quat turned(double heading_deg) { return glm::angleAxis(heading_deg * std::numbers::pi / 180.0, Vec3(0, 0, 1)); }
 
+/// Bitmaps that a material reads, by its fragments and by its tags.
+void add_bitmaps_read(const Command& command, std::set<NodeId>& bitmaps) {
+  if (const auto* fragment = std::get_if<FragmentSet>(&command)) {
+    if (const auto* texture = std::get_if<TextureFragment>(&fragment->value)) bitmaps.insert(texture->bitmap);
+  } else if (const auto* tag = std::get_if<TagSet>(&command)) {
+    if (const auto* bitmap = std::get_if<NodeReference>(&tag->value.value)) bitmaps.insert(bitmap->node);
+  }
+}
+
+/// This editor's own bitmaps that materials read of which each is among the `gone`.
+std::set<NodeId> bitmaps_left_over(const std::set<NodeId>& gone, const Store& store, NodeId own_ids,
+                                   std::span<const Command> batch) {
+  std::set<NodeId> read_by_gone, read_by_others;
+  const auto read_by = [&](NodeId node) -> std::set<NodeId>& {
+    return gone.contains(node) ? read_by_gone : read_by_others;
+  };
+  for (auto node = store.nodes().lower_bound(own_ids);
+       node != store.nodes().end() && node->first - own_ids < replication::ids_per_session; ++node)
+    if (node->second.type() == NodeType::material)
+      describe_node(node->second, [&](const Command& command) { add_bitmaps_read(command, read_by(node->first)); });
+  for (const Command& command : batch) add_bitmaps_read(command, read_by(scene::node_of(command)));
+  std::erase_if(read_by_gone, [&](NodeId bitmap) {
+    return read_by_others.contains(bitmap) || bitmap - own_ids >= replication::ids_per_session;
+  });
+  return read_by_gone;
+}
+
 }  // namespace
 
 std::vector<Command> removal_of(NodeId thing, const Store& store, NodeId own_ids, std::span<const Command> batch) {
@@ -74,6 +102,7 @@ std::vector<Command> removal_of(NodeId thing, const Store& store, NodeId own_ids
     for (const LinkSet* link : to_come)
       if (link->node == id) reach(link->value.target);
   }
+  gone.merge(bitmaps_left_over(gone, store, own_ids, batch));
   std::vector<Command> commands;
   commands.reserve(gone.size());
   for (const NodeId each : gone) commands.emplace_back(NodeDestroy{each});
@@ -90,6 +119,16 @@ std::optional<Transform> transform_of(Words words) {
 }
 
 namespace {
+
+/// Of X Y Z, a rotation w x y z and a scale x y z; empty: other words.
+std::optional<Transform> whole_transform_of(Words words) {
+  const auto read = numbers(words);
+  if (!read || read->size() != 10) return std::nullopt;
+  const auto& n = *read;
+  return Transform{{n[0], n[1], n[2]},
+                   {n[3], n[4], n[5], n[6]},
+                   {static_cast<float>(n[7]), static_cast<float>(n[8]), static_cast<float>(n[9])}};
+}
 
 /// A leg of `go`; a later one begins with its time after the first one's beginning.
 std::optional<MotionLeg> leg_of(Words words, bool is_later) {
@@ -108,10 +147,15 @@ std::optional<MotionLeg> leg_of(Words words, bool is_later) {
 
 /// Of three numbers as in pictures.
 glm::vec3 linear_rgb(std::span<const double> srgb) {
-  const auto light = [&](std::size_t i) {
-    return static_cast<float>(image::light_of_srgb(std::clamp(srgb[i], 0.0, 1.0)));
-  };
+  const auto light = [&](std::size_t i) { return static_cast<float>(image::light_of_srgb(srgb[i])); };
   return {light(0), light(1), light(2)};
+}
+
+/// Three parts of a colour, each from 0 to 1; empty: other words.
+std::optional<std::vector<double>> colour_of(Words words) {
+  auto read = words.size() == 3 ? numbers(words) : std::nullopt;
+  if (!read || std::ranges::any_of(*read, [](double part) { return part < 0.0 || part > 1.0; })) return std::nullopt;
+  return read;
 }
 
 class Verbs {
@@ -142,6 +186,12 @@ class Verbs {
   }
 
  private:
+  void learn(const MotionSet& set) {
+    if (set.motion.legs.empty())
+      names_.going.erase(set.node);
+    else
+      names_.going.insert(set.node);
+  }
   std::optional<NodeId> object(const TextWord& word) const {
     const auto id = node_of({store_, names_.own_ids, nullptr, &names_.fresh}, word);
     return id && *id != no_node ? id : std::nullopt;
@@ -152,6 +202,7 @@ class Verbs {
   /// Ids that are used are not free, and names of objects are known at once.
   void learn(const Command& command) {
     learn_worn(names_.paints, command);
+    if (const auto* motion = std::get_if<MotionSet>(&command)) return learn(*motion);
     if (const auto* create = std::get_if<NodeCreate>(&command)) {
       if (create->node >= names_.next && create->node - names_.own_ids < replication::ids_per_session)
         names_.next = create->node + 1;
@@ -223,20 +274,23 @@ class Verbs {
         {{NodeCreate{*id, NodeType::object}, NodeNameSet{*id, words[0].text}, TransformSet{*id, *transform}}, *id + 1});
   }
   Expected<EditedLine> move(Words words) {
-    constexpr std::string_view usage = "move NODE X Y Z [HEADING_DEG]";
+    constexpr std::string_view usage = "move NODE X Y Z [HEADING_DEG], or X Y Z QW QX QY QZ SCALE_X SCALE_Y SCALE_Z";
     if (words.size() < 4) return wrong("a node and its place are needed", usage);
     const auto id = object(words[0]);
     if (!id) return no_node_called(words[0]);
-    auto transform = transform_of(words.subspan(1));
-    if (!transform) return wrong("a place is three or four numbers", usage);
-    EditedLine line;
+    const auto whole = whole_transform_of(words.subspan(1));
+    auto transform = whole ? whole : transform_of(words.subspan(1));
+    if (!transform) return wrong("a place is three or four numbers, or ten", usage);
     const Node* node = store_.find(*id);
-    if (const auto* now = node ? std::get_if<ObjectData>(&node->data) : nullptr) {
+    const auto* now = node ? std::get_if<ObjectData>(&node->data) : nullptr;
+    if (now && !whole) {
       transform->scale = now->transform.scale;
       if (words.size() == 4) transform->rotation = now->transform.rotation;
-      if (!now->motion.legs.empty()) line.commands.emplace_back(MotionSet{*id, {}});
     }
-    line.commands.emplace(line.commands.begin(), TransformSet{*id, *transform});
+    EditedLine line{{TransformSet{*id, *transform}}};
+    // Whose line ever set it in motion; one of this editor's may not be in the mirror yet.
+    const bool was_sent_going = names_.going.erase(*id) > 0;
+    if (was_sent_going || (now && !now->motion.legs.empty())) line.commands.emplace_back(MotionSet{*id, {}});
     return line;
   }
   Expected<EditedLine> go(Words words) {
@@ -250,15 +304,25 @@ class Verbs {
       const auto leg = leg_of(rest.first(static_cast<std::size_t>(then - rest.begin())), !motion.motion.legs.empty());
       if (!leg) return wrong("a velocity is three numbers, an acceleration three more, a turn one more", usage);
       motion.motion.legs.push_back(*leg);
-      if (then == rest.end()) return EditedLine{{std::move(motion)}};
+      if (then == rest.end()) {
+        learn(motion);
+        return EditedLine{{std::move(motion)}};
+      }
       rest = rest.subspan(static_cast<std::size_t>(then - rest.begin()) + 1);
     }
   }
   Expected<EditedLine> hide(Words words, bool hidden) {
     if (words.size() != 1) return wrong("one node is needed", hidden ? "hide NODE" : "show NODE");
-    const auto id = object(words[0]);
-    if (!id) return no_node_called(words[0]);
-    return EditedLine{{HideSet{*id, hidden}}};
+    if (const auto id = object(words[0])) return EditedLine{{HideSet{*id, hidden}}};
+    // A participant, who has a root once something was said of it.
+    const auto number = participant(words[0]);
+    if (!number) return no_node_called(words[0]);
+    const auto first = free_ids("");
+    if (!first) return tl::unexpected(first.error());
+    Made made{{}, *first};
+    const NodeId root = root_of(*number, made);
+    made.commands.emplace_back(HideSet{root, hidden});
+    return keep(std::move(made));
   }
   Expected<EditedLine> remove(Words words) {
     if (words.size() != 1) return wrong("one node is needed", "remove NODE");
@@ -340,8 +404,8 @@ class Verbs {
   }
   Expected<EditedLine> color(Words words) {
     constexpr std::string_view usage = "color NODE RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";
-    const auto rgb = words.size() == 4 ? numbers(words.subspan(1)) : std::nullopt;
-    if (!rgb) return wrong("a node and three numbers are needed", usage);
+    const auto rgb = words.empty() ? std::nullopt : colour_of(words.subspan(1));
+    if (!rgb) return wrong("a node and three numbers from 0 to 1 are needed", usage);
     const auto id = object(words[0]);
     if (!id) return no_node_called(words[0]);
     const auto first = free_ids("");
@@ -433,8 +497,8 @@ class Verbs {
   Expected<EditedLine> repaint(Words words) {
     constexpr std::string_view usage = "repaint PARTICIPANT RED GREEN BLUE, each from 0 to 1, as in pictures (sRGB)";
     const auto number = words.empty() ? std::nullopt : participant(words[0]);
-    const auto rgb = words.size() == 4 ? numbers(words.subspan(1)) : std::nullopt;
-    if (!number || !rgb) return wrong("a participant's number or name and three numbers are needed", usage);
+    const auto rgb = words.empty() ? std::nullopt : colour_of(words.subspan(1));
+    if (!number || !rgb) return wrong("a participant's number or name and three numbers from 0 to 1 are needed", usage);
     const auto first = free_ids("");
     if (!first) return tl::unexpected(first.error());
     Made made{{}, *first};
@@ -488,13 +552,14 @@ Expected<Lifetime> lifetime_of(const std::vector<TextWord>& words, const Store& 
 
 void forget_destroyed(EditNames& names, std::span<const Command> batch) {
   for (const Command& command : batch)
-    if (const auto* destroy = std::get_if<NodeDestroy>(&command))
+    if (const auto* destroy = std::get_if<NodeDestroy>(&command)) {
       std::erase_if(names.fresh, [&](const auto& entry) { return entry.second == destroy->node; });
+      names.going.erase(destroy->node);
+    }
 }
 
-Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store) {
+Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, const Store& store, const Snapshot& now) {
   constexpr std::string_view usage = "find [NAME] [type TYPE] [tag GROUP.TAG] [near X Y METRES]";
-  constexpr std::size_t most = 1000;
   constexpr std::array types{"object", "geometry", "material", "bitmap"};
   std::string_view pattern = "*", type, group, tag;
   std::optional<std::vector<double>> near;
@@ -521,11 +586,13 @@ Expected<std::vector<NodeId>> found_nodes(const std::vector<TextWord>& words, co
     const auto* object = std::get_if<ObjectData>(&node.data);
     if (type.empty() ? !object : type != types[static_cast<std::size_t>(node.type())]) continue;
     if (!matches(pattern, node.name) || (!group.empty() && !find_tag(node, group, tag))) continue;
-    if (near && (!object || std::hypot(object->transform.position_m.x - (*near)[0],
-                                       object->transform.position_m.y - (*near)[1]) > (*near)[2]))
-      continue;
+    if (near && !object) continue;
+    if (near) {
+      const Vec3 at_m = shown_pose(node, now).position_m;
+      if (std::hypot(at_m.x - (*near)[0], at_m.y - (*near)[1]) > (*near)[2]) continue;
+    }
     found.push_back(id);
-    if (found.size() == most) break;
+    if (found.size() > most_nodes_found) break;
   }
   return found;
 }

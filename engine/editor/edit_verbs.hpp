@@ -15,6 +15,7 @@
 #include "engine/scene/command.hpp"
 #include "engine/scene/command_text.hpp"
 #include "engine/scene/store.hpp"
+#include "engine/world/snapshot.hpp"
 
 namespace septet::editor {
 
@@ -24,6 +25,7 @@ struct EditNames {
   scene::NodeId next = 0;                                     ///< First of the own ids that is free.
   std::map<std::string, scene::NodeId, std::less<>> fresh{};  ///< Objects by the names given to them.
   std::set<scene::NodeId> objects{};                          ///< Created.
+  std::set<scene::NodeId> going{};                            ///< Set in motion, and not halted by a place since.
   Paints paints{};
   scene::NodeId kept_to = 0;  ///< Own ids below it are spoken for, used or not.
 };
@@ -55,8 +57,10 @@ void forget_destroyed(EditNames& names, std::span<const scene::Command> batch);
 /// A place: nothing, X Y Z, or X Y Z HEADING_DEG. Empty: other words.
 std::optional<scene::Transform> transform_of(std::span<const scene::TextWord> words);
 
-/// The nodes that `find` means: a pattern of names (* and ?), then `type TYPE`, `tag GROUP.TAG`, `near X Y METRES`. At most
-/// a thousand.
-Expected<std::vector<scene::NodeId>> found_nodes(const std::vector<scene::TextWord>& words, const scene::Store& store);
+/// The nodes that `find` means: a pattern of names (* and ?), then `type TYPE`, `tag GROUP.TAG`, `near X Y METRES`, which
+/// counts from where things are at `now`. One more than `most_nodes_found`: there are more.
+inline constexpr std::size_t most_nodes_found = 1000;
+Expected<std::vector<scene::NodeId>> found_nodes(const std::vector<scene::TextWord>& words, const scene::Store& store,
+                                                 const Snapshot& now);
 
 }  // namespace septet::editor

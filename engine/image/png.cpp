@@ -19,9 +19,11 @@ struct FileCloser {
 };
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
-tl::unexpected<Error> file_failure(const std::string& what, const std::filesystem::path& path) {
-  return failure(what + ": " + std::strerror(errno), path.string(), "check that the folder exists and can be written");
+tl::unexpected<Error> file_failure(const std::string& what, const std::filesystem::path& path,
+                                   const char* remedy = "check that the folder exists and can be written") {
+  return failure(what + ": " + std::strerror(errno), path.string(), remedy);
 }
+constexpr const char* check_that_it_can_be_read = "check that the file exists and can be read";
 
 }  // namespace
 
@@ -66,12 +68,12 @@ Expected<void> write_png(const std::filesystem::path& path, const Image& image, 
 
 Expected<Image> read_png(const std::filesystem::path& path) {
   File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return file_failure("cannot open the image", path);
+  if (!file) return file_failure("cannot open the image", path, check_that_it_can_be_read);
   Bytes bytes;
   std::byte chunk[65536];
   while (const std::size_t count = std::fread(chunk, 1, sizeof chunk, file.get()))
     bytes.insert(bytes.end(), chunk, chunk + count);
-  if (std::ferror(file.get())) return file_failure("cannot read the image", path);
+  if (std::ferror(file.get())) return file_failure("cannot read the image", path, check_that_it_can_be_read);
   return decode_png(bytes, path.string());
 }
 

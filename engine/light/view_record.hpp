@@ -31,6 +31,8 @@ struct ViewUniforms {
   vec4 headlight_direction[most_headlights];  ///< xyz unit. w: main beam, 0 to 1.
   vec4 soot_x, soot_y, soot_z;                ///< Rows from relative places to cells of the soot.
   vec4 soot_size;                             ///< xyz: cells. w: number of beacons.
+  vec4 smoke_shade_x, smoke_shade_y;          ///< Rows from relative places to texels of the shade of smoke.
+  vec4 smoke_shade_height;                    ///< The same to its heights, m.
   /// From relative places to the field's coordinates: xy·z + xy. w: strength of lamps in the open.
   vec4 lamp_field;
   vec4 lamp_hue;  ///< rgb. w: strength of lamps under roofs.
@@ -46,7 +48,7 @@ struct ViewUniforms {
   vec4 beacon_position[most_beacons];   ///< xyz relative. w: the vehicle's ahead on the level, x.
   vec4 beacon_intensity[most_beacons];  ///< rgb, on the level. w: that ahead, y.
 };
-LIGHT_RECORD(ViewUniforms, beacon_intensity, 4 * 2 + 24 + 2 * irradiance_terms + 2 * most_headlights + 2 * most_beacons)
+LIGHT_RECORD(ViewUniforms, beacon_intensity, 4 * 2 + 27 + 2 * irradiance_terms + 2 * most_headlights + 2 * most_beacons)
 
 LIGHT_END
 

@@ -26,6 +26,12 @@ TickPublisher::TickPublisher(DatagramSocket& socket, const Identity& server, con
                "datagram limit of {} bytes", options.max_datagram_bytes);
 }
 
+TickPublisher::TickPublisher(DatagramSocket& socket, const Identity& server, const SessionId& session,
+                             const TickPublisherOptions& options, const TickPublisher& numbered_with)
+    : TickPublisher(socket, server, session, options) {
+  sequence_ = numbered_with.sequence_;
+}
+
 void TickPublisher::add_destination(const Address& destination) {
   if (std::find(destinations_.begin(), destinations_.end(), destination) == destinations_.end())
     destinations_.push_back(destination);
@@ -35,7 +41,7 @@ void TickPublisher::remove_destination(const Address& destination) { std::erase(
 
 void TickPublisher::publish(std::uint64_t tick, std::span<const std::byte> payload) {
   SEPTET_CHECK(payload.size() <= max_tick_bytes, "tick {} of {} bytes", tick, payload.size());
-  SEPTET_CHECK(sequence_ == 0 || tick > newest_tick_, "tick {} after {}", tick, newest_tick_);
+  SEPTET_CHECK(!newest_tick_ || tick > *newest_tick_, "tick {} after {}", tick, *newest_tick_);
   newest_tick_ = tick;
 
   const std::size_t fragment_bytes = choose_fragment_bytes(payload.size(), options_.max_datagram_bytes);
@@ -46,7 +52,7 @@ void TickPublisher::publish(std::uint64_t tick, std::span<const std::byte> paylo
 
   TickDatagram datagram;
   datagram.header = {.session = session_,
-                     .sequence = ++sequence_,
+                     .sequence = ++*sequence_,
                      .tick = tick,
                      .payload_bytes = static_cast<std::uint32_t>(payload.size()),
                      .fragments = static_cast<std::uint16_t>(fragments.size()),

@@ -3,6 +3,8 @@
 /// to the group and once to every unicast destination, followed by those of the tick before.
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +37,10 @@ class TickPublisher {
   /// The socket must outlive the publisher.
   TickPublisher(DatagramSocket& socket, const Identity& server, const SessionId& session,
                 const TickPublisherOptions& options = {});
+  /// Numbers its publications together with another publisher of the session, to other destinations: no datagram of one
+  /// can stand for one of the other's.
+  TickPublisher(DatagramSocket& socket, const Identity& server, const SessionId& session,
+                const TickPublisherOptions& options, const TickPublisher& numbered_with);
 
   /// Adds a group, or a client's unicast address; a repeated one changes nothing.
   void add_destination(const Address& destination);
@@ -56,8 +62,8 @@ class TickPublisher {
   SessionId session_;
   TickPublisherOptions options_;
   std::vector<Address> destinations_;
-  std::uint64_t sequence_ = 0;
-  std::uint64_t newest_tick_ = 0;
+  std::shared_ptr<std::uint64_t> sequence_ = std::make_shared<std::uint64_t>(0);
+  std::optional<std::uint64_t> newest_tick_;
   std::vector<Bytes> newest_, previous_;  ///< Datagrams of the last two ticks.
   TickPublisherCounters counters_;
 };

@@ -31,6 +31,7 @@ struct Mesh {
   bool open = false;
   std::span<const scene::SurfaceVertex> later;  ///< Vertices at time 1; empty: they do not move.
   Scene scene, fading;                          ///< Hierarchies without and with level fades; null until placed so.
+  std::shared_ptr<const scene::SurfaceMesh> held{};  ///< Owner of vertices and indices, if they are shared.
 };
 
 /// One instruction set on every processor: hierarchies and rounding differ between them, and the machines of a film
@@ -202,7 +203,9 @@ constexpr std::size_t most_moved_of_mesh = 50'000, most_moved = 500'000;
 
 struct Geometry::Parts {
   Device device;
+  Rays rays = Rays::many;
   std::vector<Mesh> meshes;
+  std::vector<Mesh> kept{};                     ///< Shared meshes that were removed, with their hierarchies.
   Scene seen, shadows;                          ///< More meshes throw shadows than are seen.
   std::vector<std::vector<glm::vec3>> moved{};  ///< Positions by place, if they were moved.
   std::vector<Standing> standing{};             ///< State by place.
@@ -236,6 +239,7 @@ struct Geometry::Parts {
     std::size_t triangles = 0;
     for (std::size_t n = 0; n < places.size(); ++n) {
       const Mesh& mesh = meshes[places[n].mesh];
+      if (rays == Rays::few) continue;
       const std::size_t here = mesh.indices.size() / 3;
       if (places[n].motion || !mesh.later.empty() || here > most_moved_of_mesh || triangles + here > most_moved)
         continue;
@@ -276,8 +280,9 @@ Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 Geometry::~Geometry() = default;
 
-Expected<Geometry> Geometry::create() {
+Expected<Geometry> Geometry::create(Rays rays) {
   auto parts = std::make_unique<Parts>();
+  parts->rays = rays;
   parts->device.reset(rtcNewDevice(device_options));
   if (!parts->device)
     return failure(fmt::format("Embree does not start (error {})", static_cast<int>(rtcGetDeviceError(nullptr))),
@@ -296,9 +301,26 @@ void Geometry::add_mesh(std::span<const scene::SurfaceVertex> vertices, std::spa
   parts_->meshes.push_back({vertices, indices, open, later, nullptr, nullptr});
 }
 
+void Geometry::add_mesh(const std::shared_ptr<const scene::SurfaceMesh>& mesh, bool open) {
+  const auto known =
+      std::ranges::find_if(parts_->kept, [&](const Mesh& kept) { return kept.held == mesh && kept.open == open; });
+  if (known != parts_->kept.end()) {
+    parts_->meshes.push_back(std::move(*known));
+    parts_->kept.erase(known);
+    return;
+  }
+  add_mesh(mesh->vertices, mesh->indices, open);
+  parts_->meshes.back().held = mesh;
+}
+
 void Geometry::keep(std::size_t count) {
   parts_->seen.reset();
   parts_->shadows.reset();
+  if (parts_->rays == Rays::few) {
+    for (std::size_t n = count; n < parts_->meshes.size(); ++n)
+      if (parts_->meshes[n].held) parts_->kept.push_back(std::move(parts_->meshes[n]));
+    std::erase_if(parts_->kept, [](const Mesh& kept) { return kept.held.use_count() == 1; });
+  }
   parts_->meshes.resize(std::min(count, parts_->meshes.size()));
 }
 

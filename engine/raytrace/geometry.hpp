@@ -93,10 +93,14 @@ class Openings {
                                   const glm::vec3& direction) const = 0;
 };
 
+/// Rays between two calls of `Geometry::place`: of many, what hastens each of them is built anew; for few, hierarchies of
+/// meshes are kept, and a ray takes longer. A hit may differ between the two in its last digits.
+enum class Rays : std::uint8_t { many, few };
+
 class Geometry {
  public:
   /// Error: Embree does not start on this machine.
-  static Expected<Geometry> create();
+  static Expected<Geometry> create(Rays rays = Rays::many);
   Geometry(Geometry&&) noexcept;
   Geometry& operator=(Geometry&&) noexcept;
   ~Geometry();
@@ -106,6 +110,9 @@ class Geometry {
   /// Triangles whose corners do not exist are the caller's bug.
   void add_mesh(std::span<const scene::SurfaceVertex> vertices, std::span<const std::uint32_t> indices, bool open,
                 std::span<const scene::SurfaceVertex> later = {});
+  /// Adds the next mesh, of which it takes a share: `mesh` is not null. With `Rays::few` its hierarchy is kept for the next
+  /// time that the same one is added, as long as somebody else holds it.
+  void add_mesh(const std::shared_ptr<const scene::SurfaceMesh>& mesh, bool open);
   /// Removes all meshes but the first `count`.
   void keep(std::size_t count);
   /// Replaces all places. `openings` outlives the queries.

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -41,8 +45,12 @@ Smoke::Smoke(std::span<const instant::SmokePuff> puffs, const Vec3& origin_m) {
   while (along(0) * along(1) * along(2) > static_cast<double>(most_cells)) cell_m_ *= 1.1f;
   for (int axis = 0; axis < 3; ++axis) count_[static_cast<std::size_t>(axis)] = static_cast<int>(along(axis));
   corner_m_ = low;
-  cells_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
-                static_cast<std::size_t>(count_[2]));
+  std::size_t blocks = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    block_count_[axis] = (count_[axis] + block_side - 1) / block_side;
+    blocks *= static_cast<std::size_t>(block_count_[axis]);
+  }
+  blocks_.assign(blocks, no_block);
   for (const instant::SmokePuff& puff : puffs)
     if (counts(puff)) add(puff, glm::vec3(puff.position_m - origin_m));
   for (Cell& cell : cells_)
@@ -72,16 +80,18 @@ void Smoke::add(const instant::SmokePuff& puff, const glm::vec3& middle_m) {
     for (int y = first[1]; y <= last[1]; ++y) {
       const float row =
           per_m * weight[2][static_cast<std::size_t>(z - first[2])] * weight[1][static_cast<std::size_t>(y - first[1])];
-      Cell* cell =
-          &cells_[(static_cast<std::size_t>(z) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(y)) *
-                      static_cast<std::size_t>(count_[0]) +
-                  static_cast<std::size_t>(first[0])];
+      int x = first[0];
       for (const float each : weight[0]) {
+        std::uint32_t& block = blocks_[block_of(x, y, z)];
+        if (block == no_block) {
+          block = static_cast<std::uint32_t>(cells_.size() / block_cells);
+          cells_.resize(cells_.size() + block_cells);
+        }
+        Cell& cell = cells_[block * block_cells + within_block(x++, y, z)];
         const float extinction = row * each;
-        cell->extinction_per_m += extinction;
-        cell->albedo += extinction * puff.albedo;
-        cell->flames += extinction * puff.glow * puff.glow;
-        ++cell;
+        cell.extinction_per_m += extinction;
+        cell.albedo += extinction * puff.albedo;
+        cell.flames += extinction * puff.glow * puff.glow;
       }
     }
 }
@@ -89,7 +99,8 @@ void Smoke::add(const instant::SmokePuff& puff, const glm::vec3& middle_m) {
 /// Calls visit(cell, from_m, to_m) for each cell in the ray's order, until it returns false.
 template <typename Visit>
 void Smoke::march(const Ray& ray, const Visit& visit) const {
-  if (cells_.empty()) return;
+  if (blocks_.empty()) return;
+  const Cell clear{};
   constexpr float far = std::numeric_limits<float>::infinity();
   float from_m = ray.from_m, to_m = ray.to_m;
   glm::vec3 per_cell_m(far);
@@ -121,11 +132,10 @@ void Smoke::march(const Ray& ray, const Visit& visit) const {
     const int axis = next_m.x < next_m.y ? (next_m.x < next_m.z ? 0 : 2) : (next_m.y < next_m.z ? 1 : 2);
     const auto n = static_cast<std::size_t>(axis);
     const float end_m = std::min(next_m[axis], to_m);
-    const std::size_t index =
-        (static_cast<std::size_t>(cell[2]) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(cell[1])) *
-            static_cast<std::size_t>(count_[0]) +
-        static_cast<std::size_t>(cell[0]);
-    if (end_m > from_m && !visit(cells_[index], from_m, end_m)) return;
+    const std::uint32_t block = blocks_[block_of(cell[0], cell[1], cell[2])];
+    const Cell& here =
+        block == no_block ? clear : cells_[block * block_cells + within_block(cell[0], cell[1], cell[2])];
+    if (end_m > from_m && !visit(here, from_m, end_m)) return;
     from_m = std::max(from_m, end_m);
     cell[n] += step[n];
     if (cell[n] < 0 || cell[n] >= count_[n]) return;

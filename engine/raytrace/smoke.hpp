@@ -8,6 +8,8 @@
 /// Frame: metres from the origin that the caller gave, along the world's axes. Const once made; any number of threads.
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -35,7 +37,7 @@ class Smoke {
   /// Puffs without density, or with a position that is not finite, are left out.
   Smoke(std::span<const instant::SmokePuff> puffs, const Vec3& origin_m);
 
-  bool empty() const { return cells_.empty(); }
+  bool empty() const { return blocks_.empty(); }
   float cell_m() const { return cell_m_; }
   /// Optical depth between the ray's two ends.
   float optical_depth(const Ray& ray) const;
@@ -50,12 +52,27 @@ class Smoke {
   };
   template <typename Visit>
   void march(const Ray& ray, const Visit& visit) const;
+  /// Cells stand in blocks, of which those alone are made that smoke reaches: of puffs far apart few.
+  static constexpr int block_side = 8;
+  static constexpr std::size_t block_cells = std::size_t{block_side} * block_side * block_side;
+  static constexpr std::uint32_t no_block = 0xffffffffu;
+
   void add(const instant::SmokePuff& puff, const glm::vec3& middle_m);
+  /// Index in `blocks_` of the block that holds a cell.
+  std::size_t block_of(int x, int y, int z) const {
+    const auto row = [](int cell) { return static_cast<std::size_t>(cell / block_side); };
+    return (row(z) * static_cast<std::size_t>(block_count_[1]) + row(y)) * static_cast<std::size_t>(block_count_[0]) +
+           row(x);
+  }
+  static std::size_t within_block(int x, int y, int z) {
+    return static_cast<std::size_t>(((z % block_side) * block_side + y % block_side) * block_side + x % block_side);
+  }
 
   glm::vec3 corner_m_{0.0f};
   float cell_m_ = 1.0f;
-  std::array<int, 3> count_{};
-  std::vector<Cell> cells_;
+  std::array<int, 3> count_{}, block_count_{};
+  std::vector<std::uint32_t> blocks_;  ///< Number of each block among those made, or `no_block`.
+  std::vector<Cell> cells_;            ///< Cells of the blocks made, one block after the other.
 };
 
 }  // namespace septet::raytrace

@@ -40,6 +40,9 @@ World::World(const scene::ResolvedScene& scene, const SceneIndex& index, const i
     ripples_ = instant::ripple_slopes(instant.environment.rain_mm_per_h, instant.simulated_time_s);
   geometry_.keep(scene.meshes.size());
   next_mesh_ = static_cast<std::uint32_t>(scene.meshes.size());
+  for (const auto& parts : instant.reshaped)
+    for (const auto& mesh : *parts)
+      if (mesh) reshaped_.emplace(mesh.get(), mesh);
   std::vector<Place> places;
   for (std::size_t n = 0; n < scene.instances.size(); ++n) {
     const scene::Instance& instance = scene.instances[n];

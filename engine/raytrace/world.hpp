@@ -7,7 +7,11 @@
 /// and the light of its lamps. Frame: metres from the first view's eye, along the world's axes. Const once made; any
 /// number of threads.
 
+#include <map>
+#include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "engine/instant/clouds.hpp"
 #include "engine/instant/ice_body.hpp"
@@ -222,6 +226,8 @@ class World : public Openings {
   std::vector<std::vector<scene::SurfaceVertex>> later_soups_;
   std::vector<std::vector<scene::SurfaceVertex>> panes_;  ///< Vertices of ice on glass, at times 0 and 1 by turns.
   std::uint32_t next_mesh_ = 0;                           ///< Next index behind the scene's meshes.
+  /// Owners of the meshes that replace a scene's.
+  std::map<const scene::SurfaceMesh*, std::shared_ptr<const scene::SurfaceMesh>> reshaped_;
   /// Triangle materials of the meshes that replace a scene's.
   std::vector<std::vector<std::uint32_t>> reshaped_materials_;
   HeadlightRow headlights_;

@@ -12,6 +12,7 @@
 
 #include <glm/gtc/matrix_inverse.hpp>
 
+#include "engine/core/check.hpp"
 #include "engine/instant/standing_lamps.hpp"
 #include "engine/raytrace/world.hpp"
 
@@ -75,7 +76,9 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
   std::uint32_t number = placed.mesh;
   std::span<const std::uint32_t> materials = index_.materials[placed.mesh];
   if (placed.reshaped) {
-    geometry_.add_mesh(mesh.vertices, mesh.indices, index_.open[placed.mesh]);
+    const auto owner = reshaped_.find(placed.reshaped);
+    SEPTET_CHECK(owner != reshaped_.end(), "nobody owns the mesh in the stead of {}", placed.mesh);
+    geometry_.add_mesh(owner->second, index_.open[placed.mesh]);
     number = next_mesh_++;
     materials = reshaped_materials_.emplace_back(triangle_materials(mesh));
   }

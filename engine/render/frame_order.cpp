@@ -114,7 +114,8 @@ void add_road_mirror(Frame& frame) {
                          draw_road_mirror(pass, frame.context, frame.state.scene, mirror, frame.instant.views.front(),
                                           view_bindings(frame.state),
                                           store(frame.context, std::span<const std::uint8_t>(frame.instant.soot.cover)),
-                                          surface_light(frame.instant, mirror.lit_by_headlights, mirror.lit_by_lamps));
+                                          surface_light(frame.instant, mirror.lit_by_headlights, mirror.lit_by_lamps,
+                                                        mirror.smoke_shade.buffer != VK_NULL_HANDLE));
                        });
   frame.graph.add_pass("road mirror, spread", {{{image, Access::sampled}}, {{spread, Access::color_attachment}}},
                        [&frame, &pass] {

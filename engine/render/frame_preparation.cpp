@@ -12,6 +12,7 @@
 #include "engine/render/passes/light_clusters.hpp"
 #include "engine/render/passes/precipitation_pass.hpp"
 #include "engine/render/passes/smoke_pass.hpp"
+#include "engine/render/passes/smoke_shade.hpp"
 #include "engine/render/passes/view_uniforms.hpp"
 
 namespace septet::render {
@@ -23,8 +24,14 @@ float mirroring_wetness(const Environment& environment) {
   return static_cast<float>(environment.road_wetness * (1.0 - snowed_share * environment.snow_cover));
 }
 
+/// Smoke of all views of a frame.
+struct PreparedSmoke {
+  DrawnSmoke drawn;
+  PreparedSmokeShade shade;
+};
+
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const Instant& instant, const FrameView& view,
-                          const ShadowCascades& shadows, const DynamicSurfaces& dynamic, const DrawnSmoke& smoke,
+                          const ShadowCascades& shadows, const DynamicSurfaces& dynamic, const PreparedSmoke& smoke,
                           const LampField& lamps, const DetailOf& detail = {}, const RoadMirror& mirror = {},
                           const glm::vec2& offset_px = glm::vec2(0.0f)) {
   PreparedView prepared;
@@ -42,18 +49,20 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.draws = prepare_draws(
       context, scene, instant.parts, dynamic, eye_m, is_seen,
       [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; }, detail, &volume);
-  const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, mirror, offset_px);
+  ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, mirror, offset_px);
+  set_smoke_shade(uniforms, smoke.shade.shade, eye_m);
+  prepared.smoke_shade = smoke.shade.moments;
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.lit_by_lamps = lamps.shine(instant.light->street_lamps);
   prepared.mirrored_by_road = mirror.present;
-  prepared.uniforms = store(context, std::span(&uniforms, 1));
+  prepared.uniforms = store(context, std::span<const ViewUniforms>(&uniforms, 1));
   prepared.light_clusters = store_light_clusters(context, eye_m, instant.headlights);
-  const std::vector<PuffRecord> puffs = puff_records(smoke, scene, *instant.light, view, eye_m);
+  const std::vector<PuffRecord> puffs = puff_records(smoke.drawn, scene, *instant.light, view, eye_m);
   prepared.smoke = store(context, std::span<const PuffRecord>(puffs));
   prepared.puff_count = static_cast<std::uint32_t>(puffs.size());
   const std::vector<GlowRecord> glows =
       glow_records(instant.lamps, eye_m, instant.exposure.scale(),
-                   [&](const Vec3& lamp_m) { return transmittance(smoke.puffs, eye_m, lamp_m); });
+                   [&](const Vec3& lamp_m) { return transmittance(smoke.drawn.puffs, eye_m, lamp_m); });
   prepared.glows = store(context, std::span<const GlowRecord>(glows));
   prepared.glow_count = static_cast<std::uint32_t>(glows.size());
   const std::vector<ContactRecord> contacts =
@@ -136,11 +145,17 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
                             const glm::vec2& offset_px) {
   const Vec3 eye_m = world_eye(instant.views.front());
   const DynamicSurfaces dynamic = upload_dynamic(context, scene, instant);
-  const DrawnSmoke smoke = drawn_smoke(instant.smoke, instant.headlights, eye_m);
   PreparedFrame frame;
   frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);
+  PreparedSmoke smoke{drawn_smoke(instant.smoke, instant.headlights, eye_m), {}};
+  if (!smoke.drawn.puffs.empty()) {
+    smoke.shade.shade = smoke_shade(smoke.drawn.puffs, scene.summary, frame.shadows);
+    shade_smoke(smoke.drawn, smoke.shade.shade);
+    if (casts_shadows(*instant.light)) smoke.shade.moments = store_smoke_shade(context, smoke.shade.shade);
+  }
   if (road_mirrors(instant))
-    frame.road_mirror = prepare_road_mirror(context, scene, instant, frame.shadows, dynamic, lamps, width, height);
+    frame.road_mirror =
+        prepare_road_mirror(context, scene, instant, frame.shadows, smoke.shade, dynamic, lamps, width, height);
   for (const FrameView& view : instant.views)
     frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke, lamps, {},
                                        {frame.road_mirror && frame.views.empty(), width, height}, offset_px));

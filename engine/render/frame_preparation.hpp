@@ -20,6 +20,7 @@ struct PreparedView {
   SurfaceDraws draws;
   FrameData uniforms;
   FrameData light_clusters;  ///< Empty without clustered headlights, or without headlights.
+  FrameData smoke_shade;     ///< That of the frame; empty without smoke in the light.
   FrameData glows;
   std::uint32_t glow_count = 0;
   FrameData contacts;
@@ -32,6 +33,7 @@ struct PreparedView {
   std::uint32_t puff_count = 0;
   bool lit_by_headlights = false, lit_by_lamps = false;
   bool mirrored_by_road = false;  ///< True for the view that the road mirror holds.
+  bool smoke_shaded() const { return smoke_shade.buffer != VK_NULL_HANDLE; }
 };
 
 struct PreparedFrame {

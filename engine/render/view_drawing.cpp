@@ -10,7 +10,7 @@ ViewBindings view_bindings(const RendererState& state) {
   return {{}, state.sky_table.view, state.targets.shadow_map.view, state.noise.view, state.lamp_image.view};
 }
 
-SurfaceLight surface_light(const Instant& instant, bool lit_by_headlights, bool lit_by_lamps) {
+SurfaceLight surface_light(const Instant& instant, bool lit_by_headlights, bool lit_by_lamps, bool smoke_shaded) {
   return {instant.environment.road_wetness > 0.0,
           lit_by_headlights,
           lit_by_lamps,
@@ -18,7 +18,8 @@ SurfaceLight surface_light(const Instant& instant, bool lit_by_headlights, bool 
           instant.environment.snow_cover > 0.0,
           !instant.soot.cover.empty(),
           std::ranges::any_of(instant.headlights, [](const Headlight& light) { return light.main_beam > 0.0f; }),
-          !instant.beacons.empty()};
+          !instant.beacons.empty(),
+          smoke_shaded};
 }
 
 namespace {
@@ -33,6 +34,7 @@ void draw_view(RendererState& state, PassContext& context, const PreparedView& p
   ViewBindings bindings = view_bindings(state);
   bindings.uniforms = prepared.uniforms;
   bindings.light_clusters = prepared.light_clusters;
+  bindings.smoke_shade = prepared.smoke_shade;
   if (prepared.mirrored_by_road) {
     bindings.road_mirror = state.road_mirror_pass.image.view;
     bindings.road_mirror_spread = state.road_mirror_pass.spread.view;
@@ -41,7 +43,8 @@ void draw_view(RendererState& state, PassContext& context, const PreparedView& p
   }
   push_view(context, bindings);
   bind_instances(context, prepared.draws.records);
-  const SurfaceLight light = surface_light(instant, prepared.lit_by_headlights, prepared.lit_by_lamps);
+  const SurfaceLight light =
+      surface_light(instant, prepared.lit_by_headlights, prepared.lit_by_lamps, prepared.smoke_shaded());
   push_records(context, soot);
   draw_surfaces(state.surface_pass, context, state.scene, prepared.draws, SurfaceKind::opaque, light);
   if (mirrors.count > 0) {

@@ -11,7 +11,7 @@ namespace septet::render {
 
 /// Bindings of any view, without its uniforms and the road's mirror image.
 ViewBindings view_bindings(const RendererState& state);
-SurfaceLight surface_light(const Instant& instant, bool lit_by_headlights, bool lit_by_lamps);
+SurfaceLight surface_light(const Instant& instant, bool lit_by_headlights, bool lit_by_lamps, bool smoke_shaded);
 
 /// Draws the frame's views into the radiance, the later ones over the first.
 void draw_views(RendererState& state, PassContext& context, const PreparedFrame& frame, const Instant& instant);

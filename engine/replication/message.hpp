@@ -18,6 +18,8 @@ inline constexpr std::size_t max_batch_bytes = 2u << 20;
 /// Changes that a client's batch asks for: a batch is done whole between two ticks. So many take 8 to 12 ms with seven screens, which are told
 /// of each, and 2.5 without (`./bench --benchmark_filter=edit_batch`); a model of the most parts has no more of what shows it.
 inline constexpr std::size_t most_changes_of_batch = 4096;
+/// Bytes by which the sizes that a client's batch sets let shapes grow (scene/growth.hpp): memory that is new costs 2 ms a MiB.
+inline constexpr std::size_t most_grown_bytes_of_batch = 4u << 20;
 /// Of a refusal: failures that are told, and bytes of the words and of the node's name of each.
 inline constexpr std::size_t most_failures_told = 16, max_refusal_bytes = 1000, max_failed_name_bytes = 200;
 

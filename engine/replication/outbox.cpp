@@ -1,6 +1,8 @@
 #include "engine/replication/outbox.hpp"
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "engine/scene/command_codec.hpp"
 
@@ -29,11 +31,14 @@ void add_range(Ranges& ranges, std::uint32_t first, std::uint32_t end) {
 }  // namespace
 
 void Outbox::mark(const Change& change, std::uint64_t tick) {
+  if (merge(change, tick)) order_.emplace_back(change.subject, tick);
+}
+
+bool Outbox::merge(const Change& change, std::uint64_t tick) {
   const auto [found, added] = waiting_.try_emplace(change.subject);
   Waiting& waiting = found->second;
   if (added) {
     waiting.change = change;
-    order_.emplace_back(change.subject, tick);
   } else {
     waiting.change.renew = waiting.change.renew || change.renew;
     waiting.change.smallest_vertices = std::min(waiting.change.smallest_vertices, change.smallest_vertices);
@@ -41,11 +46,34 @@ void Outbox::mark(const Change& change, std::uint64_t tick) {
   }
   waiting.changed_at = std::max(waiting.changed_at, tick);
   if (is_range(change.subject.kind)) add_range(waiting.ranges, change.first, change.end);
+  return added;
+}
+
+void Outbox::mark_lost(std::span<const Change> lost, std::uint64_t tick) {
+  auto waited = std::exchange(order_, {});
+  std::set<Subject> first;
+  for (const Change& change : lost) {
+    if (first.insert(change.subject).second) order_.emplace_back(change.subject, tick);
+    merge(change, tick);
+  }
+  // What is among the lost goes with them: what follows there may point at it.
+  std::erase_if(waited, [&](const auto& entry) { return first.contains(entry.first); });
+  order_.insert(order_.end(), waited.begin(), waited.end());
+}
+
+std::optional<std::uint64_t> Outbox::next_tick() const {
+  const auto next = std::ranges::find_if(order_, [&](const auto& entry) { return waiting_.contains(entry.first); });
+  return next == order_.end() ? std::nullopt : std::optional(next->second);
 }
 
 bool Outbox::goes_on() const {
-  const auto next = std::ranges::find_if(order_, [&](const auto& entry) { return waiting_.contains(entry.first); });
-  return next != order_.end() && next->second != 0 && next->second <= written_up_to_;
+  const auto next = next_tick();
+  return next && *next != 0 && *next <= written_up_to_;
+}
+
+bool Outbox::waits_for(std::uint64_t tick) const {
+  const auto next = next_tick();
+  return next && *next <= tick;
 }
 
 void Outbox::forget(const Subject& first, const Subject& last) {

@@ -61,6 +61,8 @@ struct ReplicationClient::State {
   bool hello_due = false, welcomed = false, owes_acknowledgement = false;
 
   bool ever_complete = false;
+  bool is_current = false;   ///< On this connection the server has said that all was sent.
+  bool has_gone_on = false;  ///< Changes later than `revision` are in the mirror.
   std::uint64_t answered = 0, revision = 0;
   NodeId own_ids = 0;
   std::vector<Refused> refusals;
@@ -73,7 +75,7 @@ struct ReplicationClient::State {
   /// The server then sends each node with its content, unasked.
   bool wants_all() const { return !policy.wants_part; }
   Store& mirror() { return filling ? *filling : *shown; }
-  bool complete() const { return ever_complete && queued.empty() && answered == sent; }
+  bool complete() const { return is_current && queued.empty() && answered == sent; }
 
   void start_anew(std::uint64_t new_token) {
     token = new_token;
@@ -82,7 +84,7 @@ struct ReplicationClient::State {
     to_repeat = 0;
     queued.clear();
     subscribed_parts.clear();
-    ever_complete = false;
+    ever_complete = is_current = false;
     owes_acknowledgement = false;
     drop_held();
     shown_tick.reset();
@@ -113,6 +115,12 @@ struct ReplicationClient::State {
     }
     if (held.empty()) held_nodes.clear();
     return {};
+  }
+  /// A client that shows no ticks keeps back only what is not whole yet.
+  Expected<void> apply_what_is_whole() {
+    if (shown_tick || held.empty() || held.back().goes_on) return {};
+    has_gone_on = true;
+    return apply_held(std::numeric_limits<std::uint64_t>::max());
   }
   std::optional<NodeType> type_of(NodeId id) {
     if (const Node* node = mirror().find(id)) return node->type();
@@ -189,7 +197,10 @@ struct ReplicationClient::State {
     if (message.sequence != received + 1)
       return failure(fmt::format("batch {} follows {}", message.sequence, received), "replication server",
                      "connect again");
-    const bool is_held = !held.empty() || (shown_tick && !filling && (message.goes_on || message.tick > *shown_tick));
+    const bool is_later = shown_tick && message.tick > *shown_tick;
+    const bool may_be_shown = !filling && (shown_tick || ever_complete);
+    const bool is_held = !held.empty() || (may_be_shown && (message.goes_on || is_later));
+    has_gone_on = has_gone_on || !is_held;
     HeldBatch batch{message.tick, message.goes_on, message.commands.size(), {}};
     ByteReader in(message.commands);
     while (!in.at_end()) {
@@ -208,8 +219,11 @@ struct ReplicationClient::State {
     if (is_held) {
       held_bytes += batch.bytes;
       held.push_back(std::move(batch));
-      if (held_bytes > most_held_bytes)
+      if (held_bytes > most_held_bytes) {
+        has_gone_on = true;
         if (auto applied = apply_held(std::numeric_limits<std::uint64_t>::max(), true); !applied) return applied;
+      }
+      if (auto applied = apply_what_is_whole(); !applied) return applied;
     }
     received = message.sequence;
     owes_acknowledgement = true;
@@ -222,8 +236,11 @@ struct ReplicationClient::State {
     if (!held.empty()) held.back().goes_on = false;  // Nothing is to come that belongs to it.
     // Before the first batch is sent there are no requests, so nothing can be complete.
     ever_complete = ever_complete || answered > 0;
+    is_current = ever_complete;
+    auto applied = apply_what_is_whole();
+    has_gone_on = false;
     if (filling && complete()) show();
-    return {};
+    return applied;
   }
   Expected<void> operator()(const Received& message) {
     acknowledge(message.sequence);
@@ -244,7 +261,7 @@ struct ReplicationClient::State {
   /// A mirror that missed a change is discarded.
   void begin_anew() {
     token = 0;
-    welcomed = false;
+    welcomed = is_current = false;
     hello_due = true;
     drop_held();
   }
@@ -279,10 +296,10 @@ ReplicationClient::~ReplicationClient() = default;
 
 void ReplicationClient::connected() {
   state_->hello_due = true;
-  state_->welcomed = false;
+  state_->welcomed = state_->is_current = false;
 }
 
-void ReplicationClient::disconnected() { state_->hello_due = state_->welcomed = false; }
+void ReplicationClient::disconnected() { state_->hello_due = state_->welcomed = state_->is_current = false; }
 
 Expected<void> ReplicationClient::receive(std::span<const std::byte> message) {
   const auto decoded = decode(message);
@@ -321,6 +338,9 @@ std::vector<Done> ReplicationClient::take_done() { return std::exchange(state_->
 const Store& ReplicationClient::store() const { return *state_->shown; }
 std::uint64_t ReplicationClient::generation() const { return state_->generation; }
 bool ReplicationClient::complete() const { return state_->complete(); }
+bool ReplicationClient::is_at(std::uint64_t revision) const {
+  return complete() && !state_->has_gone_on && state_->revision == revision;
+}
 std::uint64_t ReplicationClient::complete_revision() const { return state_->revision; }
 
 }  // namespace septet::replication

@@ -62,9 +62,13 @@ class ReplicationClient {
   /// Changes whenever `store()` is replaced by another one.
   std::uint64_t generation() const;
 
-  /// True where the mirror being filled holds all subscriptions, up to `complete_revision` of the server's store.
+  /// True where the mirror being filled holds all subscriptions, up to `complete_revision` of the server's store, as the
+  /// server has said on this connection.
   bool complete() const;
   std::uint64_t complete_revision() const;
+  /// True where the mirror, at the tick that shows that revision of the server's store, equals it; false where it lacks
+  /// something, or has gone beyond, as one that has shown nothing yet does.
+  bool is_at(std::uint64_t revision) const;
 
  private:
   struct State;

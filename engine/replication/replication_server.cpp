@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,6 +31,7 @@ constexpr NodeId first_own_id = 0x40000000u, sessions_with_ids = 0xA000u;
 struct Unacknowledged {
   std::uint64_t sequence = 0;
   std::size_t bytes = 0;
+  std::uint64_t tick = 0;  ///< That shows it first.
   std::vector<Change> changes;
 };
 
@@ -75,9 +77,12 @@ struct Session {
   /// After a loss: repeats the batches that did not arrive.
   void rewind(std::uint64_t arrived) {
     acknowledge(arrived);
-    for (const Unacknowledged& lost : unacknowledged)
-      for (const Change& change : lost.changes)
-        if (change.subject.kind == SubjectKind::existence || wants(change.subject)) outbox.mark(change);
+    std::vector<Change> lost;
+    for (const Unacknowledged& batch : unacknowledged)
+      std::ranges::copy_if(batch.changes, std::back_inserter(lost), [&](const Change& change) {
+        return change.subject.kind == SubjectKind::existence || wants(change.subject);
+      });
+    if (!unacknowledged.empty()) outbox.mark_lost(lost, unacknowledged.back().tick);
     unacknowledged.clear();
     unacknowledged_bytes = 0;
     sent = arrived;
@@ -330,7 +335,7 @@ struct ReplicationServer::State {
 
     int requests = requests_per_pump;
     for (std::size_t written = 0; written < max_bytes && session.unacknowledged_bytes < options.window_bytes;) {
-      Unacknowledged batch{session.sent + 1, 0, {}};
+      Unacknowledged batch{session.sent + 1, 0, session.changed_at, {}};
       Bytes commands;
       const std::size_t limit = std::min(options.batch_bytes, max_bytes - written);
       while (commands.size() < limit) {
@@ -349,7 +354,12 @@ struct ReplicationServer::State {
         return pumped;
     }
 
-    while (!session.answers.empty()) {
+    // What was done is in the mirror of who is told so.
+    const auto is_too_early = [&](const Message& message) {
+      const auto* done = std::get_if<Done>(&message);
+      return done && session.outbox.waits_for(done->tick);
+    };
+    while (!session.answers.empty() && !is_too_early(session.answers.front())) {
       const Message next = std::move(session.answers.front());
       session.answers.pop_front();
       if (!offer(encode(next))) return pumped;

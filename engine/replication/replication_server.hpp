@@ -68,7 +68,7 @@ class ReplicationServer {
   /// Tells a client that nothing of its batch was done, and why. Of the answers that wait, the
   /// oldest thousand are told. A connection that is gone is told nothing.
   void refuse(ConnectionId connection, std::uint64_t batch, Refusal refusal);
-  /// Tells a client that its batch was done, and the first tick that shows it.
+  /// Tells a client that its batch was done, and the first tick that shows it, behind what it changed.
   void done(ConnectionId connection, std::uint64_t batch, std::uint64_t tick);
 
   /// Call after every command that the store accepted. `tick`: the first that shows it; mirrors that show ticks keep it

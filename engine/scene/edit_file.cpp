@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/printable.hpp"
 #include "engine/scene/command_text.hpp"
 #include "engine/scene/difference.hpp"
 
@@ -17,7 +18,7 @@ Expected<void> apply_edits(Store& store, std::string_view text, std::string_view
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     const auto place = [&](const Error& error) {
-      return failure(error.what, fmt::format("{}:{}", where, number), error.remedy);
+      return failure(printable(error.what), fmt::format("{}:{}", where, number), error.remedy);
     };
     const auto words = words_of(line);
     if (!words) return place(words.error());

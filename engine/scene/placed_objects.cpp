@@ -161,9 +161,10 @@ void PlacedObjects::set_parts(std::uint32_t prototype, std::vector<Instance> par
 bool PlacedObjects::place_model(Root& root, const Object& object, std::vector<Instance> parts, ResolvedScene& scene) {
   Prototype& prototype = scene.prototypes[root.prototype];
   if (prototype.name != *object.drawn.prototype) return false;
-  if (prototype.paint != object.drawn.paint)
+  if (prototype.paint != object.drawn.paint || prototype.is_hidden != object.drawn.hidden)
     scene.changes.add(scene.revision, {SceneChange::Kind::prototype, root.prototype});
   prototype.paint = object.drawn.paint;
+  prototype.is_hidden = object.drawn.hidden;
   const bool is_changed = prototype.parts != parts;
   if (is_changed) scene.prototypes_revision = scene.revision;
   set_parts(root.prototype, std::move(parts), scene);
@@ -329,7 +330,8 @@ void PlacedObjects::place_all(const Store& store, ResolvedScene& scene) {
     if (root.is_model || root.moves) {
       root.prototype = static_cast<std::uint32_t>(scene.prototypes.size());
       scene.prototypes.push_back({object.drawn.prototype.value_or(""), std::move(instances), object.drawn.paint, motion,
-                                  root.moves ? moving_number(id) : 0, object.drawn.box});
+                                  root.moves ? moving_number(id) : 0, object.drawn.box,
+                                  root.is_model && object.drawn.hidden});
     } else {
       root.first = static_cast<std::uint32_t>(scene.instances.size());
       root.capacity = static_cast<std::uint32_t>(instances.size());

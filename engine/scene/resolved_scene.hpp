@@ -173,6 +173,7 @@ struct Prototype {
   Motion motion;                   ///< Of an object; without legs it has gone.
   std::uint32_t number = 0;        ///< Tells objects that move apart from each other and from participants.
   std::optional<PushableBox> box;  ///< Of an object that can be pushed, which need not have legs.
+  bool is_hidden = false;          ///< Of a participant: it is not drawn.
 };
 
 /// Pixels of an image, from the upper left.

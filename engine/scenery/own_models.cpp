@@ -24,16 +24,28 @@ constexpr std::array<std::string_view, 12> things{"oak",        "birch",      "s
 /// Removes the number that modelling programs append to equal names: "wheel_front_left.001" is a wheel.
 std::string_view without_number(std::string_view name) { return name.substr(0, name.find('.')); }
 
+/// The looks that its parts wear, with their pictures; in the places of others no_node.
 Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const gltf::Model& model) {
-  std::vector<scene::NodeId> pictures;
-  for (const gltf::Picture& picture : model.pictures)
-    pictures.push_back(builder.add_bitmap(fmt::format("{} picture", name), picture.width, picture.height, picture.rgba,
-                                          !picture.is_linear, {picture.ends_u, picture.ends_v, picture.is_sharp}));
-  const auto bitmap = [&](std::int32_t picture) {
-    return picture >= 0 ? pictures[static_cast<std::size_t>(picture)] : scene::no_node;
+  std::vector<scene::NodeId> pictures(model.pictures.size(), scene::no_node);
+  const auto bitmap = [&](std::int32_t index) {
+    if (index < 0) return scene::no_node;
+    scene::NodeId& made = pictures[static_cast<std::size_t>(index)];
+    const gltf::Picture& picture = model.pictures[static_cast<std::size_t>(index)];
+    if (made == scene::no_node)
+      made = builder.add_bitmap(fmt::format("{} picture", name), picture.width, picture.height, picture.rgba,
+                                !picture.is_linear, {picture.ends_u, picture.ends_v, picture.is_sharp});
+    return made;
   };
+  std::vector<bool> is_worn(model.looks.size());
+  for (const gltf::Part& part : model.parts) {
+    for (const std::uint32_t look : part.mesh.polygon_materials) is_worn.at(look) = true;
+    if (part.mesh.polygon_materials.empty() && !is_worn.empty()) is_worn[0] = true;
+  }
   Palette palette;
-  for (const gltf::Look& look : model.looks) {
+  for (std::size_t i = 0; i < model.looks.size(); ++i) {
+    const gltf::Look& look = model.looks[i];
+    palette.push_back(scene::no_node);
+    if (!is_worn[i]) continue;
     scene::MaterialParameters material;
     material.base_color = look.base_color;
     material.base_color_bitmap = bitmap(look.picture);
@@ -49,7 +61,7 @@ Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const glt
     material.emission = look.emission;
     material.two_sided = look.two_sided;
     material.takes_paint = without_number(look.name) == "paint";
-    palette.push_back(builder.add_material(fmt::format("{}/{}", name, look.name), material));
+    palette.back() = builder.add_material(fmt::format("{}/{}", name, look.name), material);
   }
   return palette;
 }
@@ -120,7 +132,7 @@ const std::vector<Shape>& OwnShapes::shapes_of(std::string_view name, const gltf
   const Palette palette = add_looks(builder_, name, model);
   std::vector<Shape> shapes;
   for (const gltf::Part& part : model.parts)
-    shapes.push_back(add_shape(builder_, fmt::format("own {}", name), part.mesh, palette));
+    shapes.push_back(add_shape(builder_, fmt::format("{}/shape", name), part.mesh, palette));
   return shapes_.emplace(name, std::move(shapes)).first->second;
 }
 

@@ -22,8 +22,20 @@ struct Box {
   Vec3 half_m{0.5};
 };
 
-/// Distance at which a line enters a box: 0 if it begins inside. Empty: it passes.
-std::optional<double> entry_m(const Box& box, const Line& line);
+/// A box that many lines are held against.
+class BoxInTheWay {
+ public:
+  explicit BoxInTheWay(const Box& box) : box_from_world_(inverse(box.world_from_box)), half_m_(box.half_m) {}
+  /// Distance at which a line enters it: 0 if it begins inside. Empty: it passes.
+  std::optional<double> entry_m(const Line& line) const;
+
+ private:
+  RigidTransform box_from_world_;
+  Vec3 half_m_;
+};
+
+/// The same for one line.
+inline std::optional<double> entry_m(const Box& box, const Line& line) { return BoxInTheWay(box).entry_m(line); }
 
 /// Share of light that passes along a line for `length_m` through air of this extinction, exp(−∫ ext ds), by the
 /// midpoint rule with steps of at most `step_m` (positive). `extinction_per_m`: function of a place of the world, as

@@ -115,6 +115,12 @@ void look_for_others(const Model& model, const std::vector<Participant>& partici
   state.sightings.near = std::move(now);
 }
 
+bool is_known(const State& state, ParticipantId id) {
+  const auto found = std::ranges::lower_bound(state.sightings.near, id, {}, &Sighting::id);
+  if (found == state.sightings.near.end() || found->id != id) return false;
+  return found->seen || (found->was_seen && state.tick < found->since + static_cast<Tick>(remembered_s * tick_rate_hz));
+}
+
 std::optional<EffectKeyframe> seen_keyframe(const State& state) {
   if (state.sightings.near.empty()) return std::nullopt;
   EffectKeyframe keyframe;

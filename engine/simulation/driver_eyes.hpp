@@ -16,6 +16,9 @@ namespace septet::simulation {
 void look_for_others(const Model& model, const std::vector<Participant>& participants, State& state,
                      std::vector<Event>& events);
 
+/// True for one whom the driver has before his eyes, or had within `remembered_s`.
+bool is_known(const State& state, ParticipantId id);
+
 /// Those who are seen, as a keyframe; empty where nobody is near enough.
 std::optional<EffectKeyframe> seen_keyframe(const State& state);
 

@@ -61,7 +61,11 @@ Expected<std::vector<ReadColumn>> read_columns(const std::vector<std::string_vie
       cell.remove_suffix(3);
     }
     const auto found = std::ranges::find(columns, cell, &Column::name);
-    if (found == columns.end()) return failure(fmt::format("\"{}\" is no column", printable(cell)), where, use_columns);
+    if (found == columns.end())
+      return failure(fmt::format("\"{}\" is no column", printable(cell)), where,
+                     cells.size() == 1 && cell.find_first_of(";\t") != std::string_view::npos
+                         ? "set commas between the columns, and points before the decimals"
+                         : use_columns);
     one.column = &*found;
     for (const ReadColumn& other : read)
       if (other.column->value == one.column->value && other.is_plus_minus == one.is_plus_minus)

@@ -12,7 +12,10 @@
 #include "engine/roadside/raised_areas.hpp"
 #include "engine/scenario/model/scenario.hpp"
 #include "engine/simulation/given_motion.hpp"
+#include "engine/traffic/people/walkways.hpp"
 #include "engine/traffic/yield_line.hpp"
+#include "engine/world/people.hpp"
+#include "engine/world/rider.hpp"
 #include "engine/world/solid.hpp"
 #include "engine/world/traffic_light.hpp"
 #include "engine/world/wire_snapshot.hpp"
@@ -26,8 +29,10 @@ inline constexpr ParticipantId first_scripted_participant = 2;  ///< The scenari
 inline constexpr ParticipantId first_traffic_participant = 1000;
 
 static_assert(first_scripted_participant + scenario::most_entities <= first_traffic_participant);
-static_assert(first_scripted_participant + scenario::most_entities + scenario::most_swarm_vehicles + most_solids <=
-              max_wire_participants);
+static_assert(first_scripted_participant + scenario::most_entities + scenario::most_swarm_vehicles <=
+              max_wire_participants - most_solids);
+static_assert(first_traffic_participant + 2 * scenario::most_swarm_vehicles <= first_person_participant);
+static_assert(first_person_participant + most_people <= first_rider_participant);
 
 /// A head of lamps that the scenario switches.
 struct SwitchedLight {
@@ -40,11 +45,12 @@ struct Model {
   scenario::Scenario scenario;
   scenario::EntityIndex driver_entity = scenario::no_entity;  ///< The driver's car in the scenario.
   vehicle::VehicleParameters car;
-  std::shared_ptr<const roadside::Obstacles> obstacles;  ///< Obstacles beside the roads; null: none.
-  std::shared_ptr<const roadside::RaisedAreas> raised;   ///< Kerbs and islands that are objects; null: none.
-  std::vector<SwitchedLight> lights;                     ///< In the order of the road file.
-  std::vector<traffic::YieldLine> yield_lines;           ///< Empty: no examiner (examiner.hpp).
-  std::shared_ptr<const GivenMotion> motion;             ///< Of the driver's car; null: somebody drives.
+  std::shared_ptr<const roadside::Obstacles> obstacles;   ///< Obstacles beside the roads; null: none.
+  std::shared_ptr<const roadside::RaisedAreas> raised;    ///< Kerbs and islands that are objects; null: none.
+  std::vector<SwitchedLight> lights;                      ///< In the order of the road file.
+  std::shared_ptr<const traffic::WalkwayGraph> walkways;  ///< Where people of a swarm walk; null: nowhere.
+  std::vector<traffic::YieldLine> yield_lines;            ///< Empty: no examiner (examiner.hpp).
+  std::shared_ptr<const GivenMotion> motion;              ///< Of the driver's car; null: somebody drives.
   std::uint64_t seed = 1;
   /// Hash of the texts that it was read from: models with equal ones are equal. 0: it was not read from texts.
   std::uint64_t sources_hash = 0;

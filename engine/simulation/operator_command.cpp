@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/printable.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
@@ -15,12 +16,15 @@
 #include "engine/simulation/command_words.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/guidance.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 
 namespace septet::simulation {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr std::string_view no_goal = "nowhere";
+constexpr std::size_t longest_goal = 200;
 // Within the ranges that models and pictures support.
 constexpr std::array condition_table{
     Condition{"rain_mm_per_h", 0.0, 100.0, &Environment::rain_mm_per_h},
@@ -42,8 +46,9 @@ tl::unexpected<Error> no_command(std::string what) {
                  "write \"conditions NAME=VALUE …\", \"traffic vehicles=N\", \"trigger element=NAME\", \"place x_m=X "
                  "y_m=Y part=NAME\", \"remove thing=N\" "
                  "\"hide entity=NAME\", \"fault what=NAME\", \"repair what=NAME\", \"put x_m=X y_m=Y heading_rad=A "
-                 "speed_mps=V\", \"call name=NAME node=NODE PARAMETER=VALUE …\", \"overlook\" or \"errors "
-                 "overlook=N late_brake=N telephone=N red=N\"");
+                 "speed_mps=V\", \"hazard x_m=X y_m=Y name=NAME\", \"call name=NAME node=NODE PARAMETER=VALUE …\", "
+                 "\"overlook\", \"errors "
+                 "overlook=N late_brake=N telephone=N red=N\" or \"to PLACE\"");
 }
 
 Expected<OperatorCommand> parse_conditions(std::string_view text) {
@@ -102,6 +107,20 @@ Expected<OperatorCommand> parse_put(std::string_view text) {
   }
   if (!text.empty()) return no_command("this is no place to put the car");
   return put;
+}
+
+/// "X y_m=Y name=NAME".
+Expected<OperatorCommand> parse_hazard(std::string_view text) {
+  constexpr std::string_view second = "y_m=", third = "name=";
+  constexpr double furthest_m = 1e7;
+  SetHazard set;
+  const auto x = take_word(text), y = take_word(text);
+  const auto is_place = [](double value) { return value >= -furthest_m && value <= furthest_m; };
+  if (!read_number(x, set.x_m) || !y.starts_with(second) || !read_number(y.substr(second.size()), set.y_m) ||
+      !is_place(set.x_m) || !is_place(set.y_m) || !text.starts_with(third) || text.size() == third.size())
+    return no_command("this is no hazard and no place");
+  set.name = text.substr(third.size());
+  return set;
 }
 
 /// Applies `use` to each act and each event of the storyboard, as whole elements.
@@ -176,11 +195,17 @@ bool can_hide(const Model& model, std::size_t entity) {
   return entity != model.driver_entity && model.scenario.entities[entity].kind != scenario::EntityKind::misc_object;
 }
 
+/// False for one that has not come into the world yet, so that there is no place at which to show it.
+bool has_place(const scenario::EntityState& entity) {
+  return entity.active || entity.world_from_entity.position_m != Vec3(0.0);
+}
+
 Expected<void> apply(const Model& model, const ShowEntity& show, State& state, std::vector<Event>&) {
   const auto found = scenario::find_entity(model.scenario, show.name);
   if (!found || !can_hide(model, *found))
     return failure("the scenario moves nobody of this name", show.name.substr(0, 200), "name another one");
   scenario::EntityState& entity = state.scenario.entities[*found];
+  if (!has_place(entity)) return failure("it has not come yet", show.name, "wait until the storyboard brings it");
   if (entity.active == show.shown)
     return failure(show.shown ? "it is there already" : "it is not there", show.name, "choose the other");
   if (entity.external) return failure("somebody else moves it", show.name, "name one that the scenario moves");
@@ -198,9 +223,40 @@ Expected<void> apply(const Model&, const SetFault& set, State& state, std::vecto
   return {};
 }
 
-/// The drivable lane with the nearest middle, among those along the heading if there are any.
-std::optional<road::LanePosition> lane_to_put_on(const road::RoadNetwork& roads, const PutCar& put) {
-  const auto place = road::locate(roads, {put.x_m, put.y_m}, nullptr, furthest_put_m);
+/// True for an act in which something begins to endanger the driver.
+bool is_hazard(const scenario::Act& act) {
+  for (const auto& group : act.groups)
+    for (const auto& maneuver : group.maneuvers)
+      for (const auto& event : maneuver.events)
+        for (const auto& action : event.actions)
+          if (std::holds_alternative<scenario::HazardAction>(action.what)) return true;
+  return false;
+}
+
+/// The one whom a hazard's act places first; no_entity where there is nobody.
+scenario::EntityIndex first_actor(const scenario::Act& act) {
+  return act.groups.empty() || act.groups.front().actors.empty() ? scenario::no_entity
+                                                                 : act.groups.front().actors.front();
+}
+
+/// The hazards' acts that may be set now.
+std::vector<const scenario::Act*> settable_acts(const scenario::Scenario& scenario,
+                                                const scenario::ScenarioState& state) {
+  std::vector<const scenario::Act*> found;
+  for (const auto& story : scenario.stories)
+    for (const auto& act : story.acts) {
+      const scenario::EntityIndex first = first_actor(act);
+      if (first == scenario::no_entity || state.entities[first].active || state.entities[first].external) continue;
+      if (state.elements[act.element].status == scenario::ElementStatus::standby && is_hazard(act))
+        found.push_back(&act);
+    }
+  return found;
+}
+
+/// The drivable lane with the nearest middle, among those along the heading if one is given and there are any.
+std::optional<road::LanePosition> lane_to_put_on(const road::RoadNetwork& roads, const Vec2& at_m,
+                                                 const std::optional<double>& heading_rad) {
+  const auto place = road::locate(roads, at_m, nullptr, furthest_put_m);
   if (!place) return std::nullopt;
   const road::Road& road = roads.roads[place->position.road];
   const road::LaneSection& section = road::section_at(road, place->position.s_m);
@@ -213,7 +269,7 @@ std::optional<road::LanePosition> lane_to_put_on(const road::RoadNetwork& roads,
     const road::LanePosition here{place->position.road, lane.id, place->position.s_m, 0.0};
     const road::LanePoint point = road::evaluate_lane(roads, here);
     if (point.lane_width_m < least_width_m) continue;
-    const bool along = std::cos(point.driving_heading_rad - put.heading_rad) > 0.0;
+    const bool along = !heading_rad || std::cos(point.driving_heading_rad - *heading_rad) > 0.0;
     const double away_m = std::abs(point.t_m - place->position.t_m);
     if (nearest && (is_along != along ? is_along : away_m >= nearest_m)) continue;
     nearest = here;
@@ -224,7 +280,7 @@ std::optional<road::LanePosition> lane_to_put_on(const road::RoadNetwork& roads,
 }
 
 Expected<void> apply(const Model& model, const PutCar& put, State& state, std::vector<Event>&) {
-  const auto lane = lane_to_put_on(model.roads, put);
+  const auto lane = lane_to_put_on(model.roads, {put.x_m, put.y_m}, put.heading_rad);
   if (!lane)
     return failure(fmt::format("there is no lane to drive in within {:g} m", furthest_put_m), "put",
                    "choose a place on a road");
@@ -246,6 +302,34 @@ Expected<void> apply(const Model& model, const PutCar& put, State& state, std::v
   state.touching.clear();
   if (state.examiner) state.examiner = ExaminerState{};
   return {};
+}
+
+Expected<void> apply(const Model& model, const SetHazard& set, State& state, std::vector<Event>& events) {
+  const auto acts = settable_acts(model.scenario, state.scenario);
+  const auto act = std::ranges::find(acts, set.name, [](const scenario::Act* one) { return one->name; });
+  if (act == acts.end())
+    return failure("the scenario has no such hazard that is yet to be set", set.name.substr(0, 200),
+                   "name one of those that the page offers");
+  const Participant car = driven_car(model, state).participant;
+  const auto lane = lane_to_put_on(model.roads, {set.x_m, set.y_m}, std::nullopt);
+  if (!lane)
+    return failure(fmt::format("there is no lane to drive in within {:g} m", furthest_put_m), "hazard",
+                   "choose a place on a road");
+  const Vec3 place_m = road::evaluate_lane(model.roads, *lane).road.position_m;
+  const double away_m = glm::distance(place_m, car.world_from_vehicle.position_m);
+  if (away_m < nearest_hazard_m || away_m > furthest_hazard_m)
+    return failure(fmt::format("it would be {:.0f} m from the driver's car", away_m), "hazard",
+                   fmt::format("choose a place from {:g} to {:g} m away", nearest_hazard_m, furthest_hazard_m));
+  std::vector<Participant> others;
+  append_others(model, state, others);
+  for (const Participant& other : others)
+    if (glm::distance(other.world_from_vehicle.position_m, place_m) < free_around_put_m)
+      return failure("somebody stands there", "hazard", "choose another place, or wait");
+  scenario::bring_into_world(model.roads, first_actor(**act), *lane, state.scenario);
+  scenario::StepResult result;
+  auto done = scenario::trigger_element(model.scenario, model.roads, (*act)->element, state.scenario, result);
+  if (done) carry_out(model, result, car, state, events);
+  return done;
 }
 
 Expected<void> apply(const Model& model, const StandSolid& stand, State& state, std::vector<Event>&) {
@@ -276,6 +360,10 @@ Expected<void> apply(const Model&, const PeopleErrorRates& rates, State& state, 
   return state.traffic->set_errors(rates);
 }
 
+Expected<void> apply(const Model& model, const GuideDriver& wish, State& state, std::vector<Event>& events) {
+  return guide(model, wish.to, state, events);
+}
+
 }  // namespace
 
 std::span<const Condition> conditions() { return condition_table; }
@@ -296,11 +384,15 @@ std::string text_of(const OperatorCommand& command) {
   if (const auto* put = std::get_if<PutCar>(&command))
     return fmt::format("put x_m={} y_m={} heading_rad={} speed_mps={}", put->x_m, put->y_m, put->heading_rad,
                        put->speed_mps);
+  if (const auto* set = std::get_if<SetHazard>(&command))
+    return fmt::format("hazard x_m={} y_m={} name={}", set->x_m, set->y_m, set->name);
   if (const auto* show = std::get_if<ShowEntity>(&command))
     return fmt::format("{} entity={}", show->shown ? "show" : "hide", show->name);
   if (const auto* stand = std::get_if<StandSolid>(&command)) return text_of(*stand);
   if (const auto* clear = std::get_if<ClearSolid>(&command)) return text_of(*clear);
   if (const auto* show = std::get_if<ShowStanding>(&command)) return text_of(*show);
+  if (const auto* guided = std::get_if<GuideDriver>(&command))
+    return "to " + (guided->to.empty() ? std::string(no_goal) : guided->to);
   if (const auto* call = std::get_if<Call>(&command)) return "call " + septet::text_of(*call);
   if (const auto* rates = std::get_if<PeopleErrorRates>(&command)) return "errors " + septet::text_of(*rates);
   if (const auto* wish = std::get_if<OverlookWish>(&command)) {
@@ -333,6 +425,8 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
   }
   if (constexpr std::string_view begin = "put x_m="; text.starts_with(begin))
     return parse_put(text.substr(begin.size()));
+  if (constexpr std::string_view begin = "hazard x_m="; text.starts_with(begin))
+    return parse_hazard(text.substr(begin.size()));
   if (constexpr std::string_view begin = "stand "; text.starts_with(begin))
     return read_stand(text.substr(begin.size()));
   if (constexpr std::string_view begin = "clear "; text.starts_with(begin))
@@ -347,6 +441,11 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
   if (constexpr std::string_view word = "overlook"; text == word) return OverlookWish{};
   if (constexpr std::string_view begin = "overlook "; text.starts_with(begin) && text.size() > begin.size())
     return read_overlook_wish(text.substr(begin.size()));
+  if (constexpr std::string_view begin = "to "; text.starts_with(begin) && text.size() > begin.size()) {
+    const std::string_view to = text.substr(begin.size());
+    if (to.size() > longest_goal || !printable_characters(to)) return no_command("this is no goal");
+    return GuideDriver{to == no_goal ? std::string() : std::string(to)};
+  }
   for (const bool failed : {false, true}) {
     const std::string_view begin = failed ? "fault what=" : "repair what=";
     if (!text.starts_with(begin)) continue;
@@ -383,9 +482,15 @@ const scenario::TrafficSwarmAction* first_swarm(const scenario::Scenario& scenar
 std::vector<Hideable> hideable(const Model& model, const scenario::ScenarioState& state) {
   std::vector<Hideable> list;
   for (std::size_t i = 0; i < state.entities.size(); ++i)
-    if (can_hide(model, i) && !state.entities[i].external)
+    if (can_hide(model, i) && !state.entities[i].external && has_place(state.entities[i]))
       list.push_back({model.scenario.entities[i].name, state.entities[i].active});
   return list;
+}
+
+std::vector<std::string> settable_hazards(const scenario::Scenario& scenario, const scenario::ScenarioState& state) {
+  std::vector<std::string> names;
+  for (const scenario::Act* act : settable_acts(scenario, state)) names.push_back(act->name);
+  return names;
 }
 
 std::vector<std::string> triggers(const scenario::Scenario& scenario, const scenario::ScenarioState& state) {

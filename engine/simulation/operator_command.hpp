@@ -19,8 +19,11 @@
 ///     clear solid=3
 ///     gone x_m=412.5 y_m=-81 name="tree/412.5/-81.0"
 ///     call name=lift node=stimuli/barrier seconds=3 by=lab
+///     hazard x_m=120.5 y_m=-3.25 name=ball and child
 ///     overlook who=1007 whom=NAME
 ///     errors overlook=6 late_brake=20 telephone=10 red=2
+///     to Bahnhofsplatz
+///     to nowhere
 
 #include <cstdint>
 #include <span>
@@ -94,9 +97,21 @@ struct PutCar {
   double speed_mps = 0.0;
   bool operator==(const PutCar&) const = default;
 };
+/// Guides the driver to a place (guidance.hpp), or no more.
+struct GuideDriver {
+  std::string to;  ///< Empty: no more.
+  bool operator==(const GuideDriver&) const = default;
+};
+/// Sets a hazard of the scenario: the first actor of its act comes into the world in the middle of the lane nearest to a
+/// place, and the act begins.
+struct SetHazard {
+  std::string name;             ///< Of its act.
+  double x_m = 0.0, y_m = 0.0;  ///< World.
+  bool operator==(const SetHazard&) const = default;
+};
 using OperatorCommand =
     std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity, SetFault, PutCar,
-                 StandSolid, ClearSolid, ShowStanding, Call, OverlookWish, PeopleErrorRates>;
+                 StandSolid, ClearSolid, ShowStanding, Call, OverlookWish, PeopleErrorRates, GuideDriver, SetHazard>;
 
 /// Bounds of PutCar: distance from a road, speed, and distance to other participants.
 inline constexpr double furthest_put_m = 200.0, fastest_put_mps = 70.0, free_around_put_m = 8.0;
@@ -104,6 +119,9 @@ inline constexpr double furthest_put_m = 200.0, fastest_put_mps = 70.0, free_aro
 /// Distances from the driver's car at which a thing may be placed: nearer it would stand in the car, further it would
 /// be removed at once.
 inline constexpr double nearest_place_m = 8.0, furthest_place_m = 500.0;
+
+/// A hazard is set no nearer, so that it does not come out of nothing before the driver's eyes, and no further.
+inline constexpr double nearest_hazard_m = 40.0, furthest_hazard_m = 1000.0;
 
 std::string text_of(const OperatorCommand& command);
 /// Error: not a command, or a value out of its range.
@@ -123,6 +141,10 @@ struct Hideable {
   bool shown = false;
 };
 std::vector<Hideable> hideable(const Model& model, const scenario::ScenarioState& state);
+
+/// Names of the hazards that may be set now: acts that have not begun, with a HazardAction in them, whose first actor is
+/// not in the world.
+std::vector<std::string> settable_hazards(const scenario::Scenario& scenario, const scenario::ScenarioState& state);
 
 /// Elements that may be triggered now: acts and events that have not begun.
 std::vector<std::string> triggers(const scenario::Scenario& scenario, const scenario::ScenarioState& state);

@@ -19,6 +19,9 @@
 #include "engine/road/position_members.hpp"
 #include "engine/scenario/run/save_scenario.hpp"
 #include "engine/simulation/bodies/bodies.hpp"
+#include "engine/simulation/guidance.hpp"
+#include "engine/simulation/people_stage.hpp"
+#include "engine/simulation/save_people.hpp"
 #include "engine/simulation/save_thrown.hpp"
 #include "engine/simulation/solids.hpp"
 #include "engine/world/participant_shape.hpp"
@@ -66,8 +69,24 @@ SEPTET_MEMBERS(MotionLeg, from_s, velocity_mps, acceleration_mps2, turn_radps)
 SEPTET_MEMBERS(Motion, position_m, rotation, legs)
 }  // namespace septet::scene
 
+namespace septet {
+SEPTET_MEMBERS(GuidanceWord, what, now, exit)
+SEPTET_MEMBERS(Guidance, next, to_next_m, told, told_count, told_at)
+}  // namespace septet
+
+namespace septet::traffic {
+SEPTET_MEMBERS(PlaceOnLane, way, at_m)
+SEPTET_MEMBERS(RouteStep, enters, leaves, begins_m)
+SEPTET_MEMBERS(LaneRoute, steps, length_m, time_s, from, to, reached_m)
+}  // namespace septet::traffic
+
 namespace septet::simulation {
 
+// Graph and turns follow from the roads and the route.
+SEPTET_MEMBER_GROUPS(GuidanceState,
+                     hashed(goals, route, step, along_m, turn, soon_told, now_told, lane_told, arrived, off_ticks,
+                            wait_ticks, shown),
+                     kept(shown_at, route_at), left_out(graph, turns))
 SEPTET_MEMBERS(SolidMotion, participant, foot_m, heading_rad, motion)
 SEPTET_MEMBERS(CarFaults, vehicle, lamps_out)
 SEPTET_MEMBERS(BlackIce, road, lane, s_m, length_m, thickness_m)
@@ -103,12 +122,12 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), kept(dents), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. The input's effect is in the car. Faults, impacts, bodies,
-// thrown ones, things that are gone, solids in motion, limited sights, a given motion, a game, and an examiner are
-// hashed where there are any. Open crashes and sightings change nothing.
+// thrown ones, people, things that are gone, solids in motion, limited sights, a given motion, a game, an examiner and
+// guidance are hashed where there are any. Open crashes and sightings change nothing.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car), kept(faults), hashed(hull), kept(impacts, bodies, thrown, open_crashes),
-                     hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks),
-                     left_out(scenario, traffic, effects),
-                     kept(gone, solid_motions, sights, sightings, motion, game, examiner, input),
+                     hashed(wheel_roads, kerbs, strikes, car_road), kept(off_road_ticks), left_out(scenario, traffic),
+                     kept(people), left_out(effects),
+                     kept(gone, solid_motions, sights, sightings, motion, game, examiner, guidance, input),
                      hashed(diagnostics, touching))
 
 namespace {
@@ -274,6 +293,7 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
                    wrong);
   for (const OpenCrash& crash : state.open_crashes) reader.require(is_sound(crash, state.tick), wrong);
   require_sound(reader, model.roads, state.thrown);
+  require_sound(reader, model, state.people);
   for (const vehicle::HullTouch& touch : state.hull.touches) reader.require(is_sound(touch), wrong);
   const std::uint32_t things = model.obstacles ? model.obstacles->things() : 0;
   reader.require(std::ranges::is_sorted(state.gone, std::ranges::less_equal{}), wrong);
@@ -289,6 +309,7 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   reader.require(state.examiner.has_value() != model.yield_lines.empty(), wrong);
   if (state.examiner && state.examiner->front) road::require_on_roads(reader, model.roads, *state.examiner->front);
   if (state.game) reader.require(state.game->standing.end <= GameEnd::time, wrong);
+  if (state.guidance) reader.require(complete_guidance(model, *state.guidance), wrong);
 }
 
 Expected<State> refused(const std::string& what, std::string_view where, const char* remedy) {
@@ -309,9 +330,11 @@ std::uint64_t hash_state(const State& state) {
   if (state.motion) hash_members(hash, *state.motion);
   if (state.game) hash_members(hash, *state.game);
   if (state.examiner) hash_members(hash, *state.examiner);
+  if (state.guidance) hash_members(hash, *state.guidance);
   if (state.faults.any()) hash_members(hash, state.faults);
   for (const CarImpact& running : state.impacts) hash_members(hash, running);
   if (!state.bodies.empty()) hash_members(hash, state.bodies);
+  if (!state.people.empty()) hash_members(hash, state.people);
   for (const ThrownBody& thrown : state.thrown) hash_members(hash, thrown);
   return hash.value();
 }
@@ -376,6 +399,7 @@ Expected<State> restore(const Model& model, std::unique_ptr<traffic::TrafficEngi
   State state;
   state.traffic = std::move(traffic);
   if (model.obstacles) state.traffic->see_walls(model.obstacles->walls());
+  state.traffic->see_crossings(crossing_places(model));
   scenario::StepResult init;
   auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
   if (!started) return tl::unexpected(started.error());

@@ -15,7 +15,7 @@
 namespace septet::simulation {
 
 /// Raised whenever the meaning of the bytes changes within one revision's name, as in a working tree.
-inline constexpr std::uint32_t saved_state_version = 21;
+inline constexpr std::uint32_t saved_state_version = 22;
 /// Limit on saving and restoring. A tunnel full of smoke takes a few megabytes.
 inline constexpr std::size_t most_saved_bytes = std::size_t{64} << 20;
 

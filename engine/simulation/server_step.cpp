@@ -21,7 +21,9 @@
 #include "engine/simulation/examiner.hpp"
 #include "engine/simulation/follow_motion.hpp"
 #include "engine/simulation/game.hpp"
+#include "engine/simulation/guidance.hpp"
 #include "engine/simulation/lights_stage.hpp"
+#include "engine/simulation/people_stage.hpp"
 #include "engine/simulation/sight_stage.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
@@ -95,6 +97,7 @@ Snapshot capture(const Model& model, const State& state, const DrivenCar& car, s
   if (auto warnings = warning_keyframe(state)) snapshot.effects.push_back(std::move(*warnings));
   if (auto sights = sight_keyframe(state)) snapshot.effects.push_back(std::move(*sights));
   if (auto seen = seen_keyframe(state)) snapshot.effects.push_back(std::move(*seen));
+  append_guidance(state, snapshot.effects);
   snapshot.diagnostics = state.diagnostics;
   if (state.game) snapshot.game = state.game->standing;
   return snapshot;
@@ -106,6 +109,7 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   State state;
   state.traffic = std::move(traffic);
   if (model.obstacles) state.traffic->see_walls(model.obstacles->walls());
+  state.traffic->see_crossings(crossing_places(model));
   scenario::StepResult init;
   auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
   if (!started) return tl::unexpected(started.error());
@@ -118,12 +122,15 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   apply_swarms(model, init, car, state);
   for (const PeopleErrorRates& rates : init.error_rates)
     if (auto set = state.traffic->set_errors(rates); !set) return tl::unexpected(set.error());
+  if (init.people) start_people(model, *init.people, car, state);
   state.effects = initial_effects(model.scenario, state.scenario, model.seed);
   state.effects.ice = initial_ice(model.roads, model.scenario, state.scenario, model.driver_entity, driver_participant,
                                   first_scripted_participant, model.seed);
   apply_effects(model, init, car, state);
   if (model.scenario.game) state.game = initial_game(*model.scenario.game, model.seed);
   if (!model.yield_lines.empty()) state.examiner.emplace();
+  std::vector<Event> route_untold;  // Its words come with the first looks. Without a way there nobody guides.
+  for (const auto& places : init.guided) (void)guide_over(model, places, state, route_untold);
   if (auto error = state.traffic->take_error()) return tl::unexpected(std::move(*error));
   std::vector<Event> unseen_before;  // At the beginning everybody is.
   look_for_others(model, participants_now(model, state, car, {}), state, unseen_before);
@@ -137,6 +144,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   note_bad_numbers(reset_bad_numbers(state.input), driver_participant, "controls", state, events);
   DrivenCar car = advance_car(model, state, events);
   advance_storyboard(model, car, state, events);
+  advance_people(model, car.participant, state);
   if (!model.lights.empty()) state.traffic->show_lights(lit_heads(model, state.time_s()));
   state.traffic->limit_sight(
       {state.sights, depth_for_lamps(air_of(state), traffic::farthest_looked_for_m), state.gone});
@@ -157,6 +165,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   find_collisions(model, car, participants, state, events);
   advance_game(model, car.participant, state, events);
   advance_examiner(model, participants, car.participant, state, events);
+  advance_guidance(model, car.participant, state, events);
   look_ahead(model, participants, state.effects, state.scenario);
   look_through_air(model, participants, state, events);
   look_for_others(model, participants, state, events);

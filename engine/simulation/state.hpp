@@ -18,8 +18,10 @@
 #include "engine/simulation/effects/effects_state.hpp"
 #include "engine/simulation/examiner_state.hpp"
 #include "engine/simulation/game_state.hpp"
+#include "engine/simulation/guidance_state.hpp"
 #include "engine/simulation/model.hpp"
 #include "engine/simulation/open_crash.hpp"
+#include "engine/simulation/people_state.hpp"
 #include "engine/simulation/solid_motion.hpp"
 #include "engine/simulation/thrown_state.hpp"
 #include "engine/traffic/traffic_engine.hpp"
@@ -79,6 +81,7 @@ struct State {
   std::uint32_t off_road_ticks = 0;  ///< Time since the car was last on a road or right beside it.
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
+  PeopleOfDrive people;  ///< Hashed where there is one.
   EffectsState effects;
   /// Things beside the roads that are hidden (standing.hpp), by Obstacle::thing, ascending. Hashed where there is one.
   std::vector<std::uint32_t> gone;
@@ -88,6 +91,7 @@ struct State {
   std::optional<MotionState> motion;       ///< Present where the car goes by a table (given_motion.hpp).
   std::optional<GameState> game;           ///< Present where the scenario is played as a game.
   std::optional<ExaminerState> examiner;  ///< Present where the roads have lines at which others may have right of way.
+  std::optional<GuidanceState> guidance;  ///< Present where the driver is guided to a goal.
   DriverInput input;                      ///< Input of the last step.
   Diagnostics diagnostics;
   /// Participants that overlapped the car last tick, ascending: one collision counts once.

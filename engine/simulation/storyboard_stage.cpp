@@ -8,8 +8,12 @@
 #include <fmt/core.h>
 
 #include "engine/simulation/bodies/bodies.hpp"
+#include "engine/simulation/driver_eyes.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/guidance.hpp"
+#include "engine/simulation/people_stage.hpp"
 #include "engine/simulation/thrown_stage.hpp"
+#include "engine/world/hazard.hpp"
 #include "engine/world/participant_shape.hpp"
 #include "engine/world/people_errors.hpp"
 
@@ -79,11 +83,30 @@ void apply_errors(const Model& model, const scenario::StepResult& step, State& s
         action.who, action.whom == scenario::no_entity ? driver_participant : number_of(model, action.whom)));
 }
 
+namespace {
+
+/// The stretch of a lane, where an entity's place gives it: from there on ahead, within its road. Empty: it stands in no lane.
+std::optional<scenario::EffectAction> stretch_to_freeze(const Model& model, const State& state,
+                                                        scenario::EffectAction action) {
+  if (action.entity == scenario::no_entity) return action;
+  const scenario::EntityState& entity = state.scenario.entities[action.entity];
+  if (!entity.active || !entity.on_road) return std::nullopt;
+  const road::Road& road = model.roads.roads[entity.lane.road];
+  action.road = road.id;
+  action.lane = entity.lane.lane;
+  action.length_m = std::min(action.length_m, entity.along_s ? road.length_m - entity.lane.s_m : entity.lane.s_m);
+  action.s_m = entity.along_s ? entity.lane.s_m : entity.lane.s_m - action.length_m;
+  return action;
+}
+
+}  // namespace
+
 void apply_effects(const Model& model, const scenario::StepResult& step, const Participant& car, State& state) {
   using Kind = scenario::EffectAction::Kind;
   for (const scenario::EffectAction& action : step.effects) {
     if (action.kind == Kind::freeze) {
-      freeze(model.roads, action, state.effects.ice);
+      if (const auto stretch = stretch_to_freeze(model, state, action))
+        freeze(model.roads, *stretch, state.effects.ice);
       continue;
     }
     const ParticipantId id = number_of(model, action.entity);
@@ -98,6 +121,18 @@ void apply_effects(const Model& model, const scenario::StepResult& step, const P
     append_bodies(state, participants);
     if (const auto burning = std::ranges::find(participants, id, &Participant::id); burning != participants.end())
       ignite(model.roads, *burning, model.seed, state.effects.fires);
+  }
+}
+
+void tell_hazards(const scenario::StepResult& step, const Model& model, const State& state,
+                  std::vector<Event>& events) {
+  for (const scenario::BegunHazard& hazard : step.hazards) {
+    if (hazard.actors.empty())
+      events.push_back({std::string(hazard_event), std::nullopt, text_of(HazardNote{true, hazard.name})});
+    for (const scenario::EntityIndex actor : hazard.actors) {
+      const ParticipantId id = number_of(model, actor);
+      events.push_back({std::string(hazard_event), id, text_of(HazardNote{is_known(state, id), hazard.name})});
+    }
   }
 }
 
@@ -121,9 +156,14 @@ void carry_out(const Model& model, const scenario::StepResult& step, const Parti
   for (const scenario::EntityIndex entity : step.reset)
     note_bad_numbers(1, first_scripted_participant + entity, "entity", state, events);
   for (const Call& call : step.calls) events.push_back(event_of(call));
+  tell_hazards(step, model, state, events);
   apply_swarms(model, step, car, state);
   apply_errors(model, step, state, events);
+  if (step.people) start_people(model, *step.people, car, state);
   apply_effects(model, step, car, state);
+  for (const auto& places : step.guided)
+    if (auto guided = guide_over(model, places, state, events); !guided)
+      events.push_back({"guidance", driver_participant, "refused=\"" + guided.error().what + '"'});
 }
 
 }  // namespace septet::simulation

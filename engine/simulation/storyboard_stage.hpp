@@ -29,6 +29,9 @@ void apply_swarms(const Model& model, const scenario::StepResult& step, const Pa
 /// cannot do is told by an event.
 void apply_errors(const Model& model, const scenario::StepResult& step, State& state, std::vector<Event>& events);
 
+/// Tells of hazards that begin (engine/world/hazard.hpp).
+void tell_hazards(const scenario::StepResult& step, const Model& model, const State& state, std::vector<Event>& events);
+
 /// Spills, ignites and puts out as requested by the storyboard.
 void apply_effects(const Model& model, const scenario::StepResult& step, const Participant& car, State& state);
 

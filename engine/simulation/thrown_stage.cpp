@@ -17,6 +17,7 @@
 #include "engine/simulation/thrown_crash.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/people.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -78,8 +79,9 @@ bool is_beside(const Participant& vehicle, const Vec3& at_m) {
 /// Whether this vehicle throws this other one where they meet. A walker who comes against what stands stops.
 bool throws(const State& state, const Participant& vehicle, const Participant& other) {
   if (can_be_thrown(kind_of(vehicle)) || !can_be_thrown(kind_of(other))) return false;
-  // Two of one engine are kept apart by it.
-  if (is_traffic(vehicle.id) && is_traffic(other.id) && !find_loose(state, vehicle.id)) return false;
+  // Two of one engine are kept apart by it, and traffic keeps off pavements.
+  const bool crosses = is_person_of_swarm(other.id) && other.lamps.has(Lamp::signal_green);
+  if (is_traffic(vehicle.id) && is_traffic(other.id) && !crosses && !find_loose(state, vehicle.id)) return false;
   const double closing_mps = glm::length(vehicle.velocity_mps - other.velocity_mps);
   if (kind_of(other) == ParticipantKind::pedestrian && glm::length(vehicle.velocity_mps) <= least_closing_mps)
     return closing_mps > fastest_walk_mps;
@@ -137,19 +139,33 @@ person::Touches trial(const person::MovingSolid& vehicle, const std::vector<Thro
   return hardest;
 }
 
+/// Those whom people on a pavement may meet: all but traffic on its rails.
+std::vector<const Participant*> off_lanes(const State& state, const std::vector<Participant>& participants) {
+  std::vector<const Participant*> found;
+  for (const Participant& one : participants)
+    if (!is_traffic(one.id) || (!is_person_of_swarm(one.id) && find_loose(state, one.id))) found.push_back(&one);
+  return found;
+}
+
 void begin_throws(const Model& model, const Participant& car, const std::vector<Participant>& participants,
                   State& state, std::vector<Event>& events) {
+  const std::vector<const Participant*> few =
+      state.people.empty() ? std::vector<const Participant*>{} : off_lanes(state, participants);
   for (const Participant& other : participants) {
     if (!can_be_thrown(kind_of(other)) || is_thrown(state, other.id)) continue;
     std::vector<ThrownBody> bodies;
     const Participant* by = nullptr;
     person::Touches hardest;
-    for (const Participant& vehicle : participants) {
-      if (!is_beside(vehicle, other.world_from_vehicle.position_m) || !throws(state, vehicle, other)) continue;
+    const auto consider = [&](const Participant& vehicle) {
+      if (!is_beside(vehicle, other.world_from_vehicle.position_m) || !throws(state, vehicle, other)) return;
       if (bodies.empty()) bodies = bodies_of(model, other);
       const person::Touches touches = trial(solid_of(model, state, vehicle), bodies);
       if (touches.closing_mps > hardest.closing_mps) hardest = touches, by = &vehicle;
-    }
+    };
+    if (is_person_of_swarm(other.id) && !other.lamps.has(Lamp::signal_green))
+      for (const Participant* vehicle : few) consider(*vehicle);
+    else
+      for (const Participant& vehicle : participants) consider(vehicle);
     if (hardest.closing_mps < least_closing_mps) continue;
     for (const ThrownBody& each : bodies) keep_ordered(each, state.thrown);
     give_up_rails(model, other.id, car, state, events);

@@ -52,6 +52,13 @@ std::optional<Step> next_road(const road::RoadNetwork& network, Step step) {
   return best;
 }
 
+/// Station on a piece, metres from its begin.
+double station_on(const CorridorPiece& piece, double along_m) {
+  const double s_m = piece.along_s ? along_m : piece.length_m - along_m;
+  if (piece.inset_m == 0.0) return s_m;
+  return piece.from_s_m + std::clamp(s_m, piece.inset_m, std::max(piece.inset_m, piece.length_m - piece.inset_m));
+}
+
 Step reversed(Step step) { return {step.road, step.lane, !step.along_s}; }
 
 }  // namespace
@@ -94,6 +101,20 @@ std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network
   return std::nullopt;
 }
 
+const CorridorPiece* piece_of(const Corridor& corridor, const road::RoadPosition& position) {
+  const CorridorPiece* best = nullptr;
+  double least_m = 0.0;
+  for (const CorridorPiece& piece : corridor.pieces) {
+    if (piece.road != position.road) continue;
+    const double past_m =
+        std::max({0.0, piece.from_s_m - position.s_m, position.s_m - piece.from_s_m - piece.length_m});
+    if (best && past_m >= least_m) continue;
+    best = &piece;
+    least_m = past_m;
+  }
+  return best;
+}
+
 const CorridorPiece& piece_at(const Corridor& corridor, double x_m) {
   SEPTET_CHECK(!corridor.pieces.empty(), "a corridor without roads at {}", x_m);
   const auto after = std::ranges::upper_bound(corridor.pieces, x_m, {}, &CorridorPiece::x_m);
@@ -105,14 +126,15 @@ double length_along_lane_m(const road::RoadNetwork& network, const Corridor& cor
   const double sign = ahead_m < 0.0 ? -1.0 : 1.0, nudge_m = 1e-6;
   double left = std::abs(ahead_m), x = wrap_x(corridor, x_m), sum = 0.0;
   // Piece by piece; beyond an open corridor's end as on the line.
-  while (left > 0.0 && (corridor.closed || (sign > 0.0 ? x < corridor.length_m : x > 0.0))) {
+  const double begin_m = corridor.pieces.empty() ? 0.0 : corridor.pieces.front().x_m;
+  while (left > 0.0 && (corridor.closed || (sign > 0.0 ? x < corridor.length_m : x > begin_m))) {
     const CorridorPiece& piece = piece_at(corridor, sign > 0.0 ? x : x - nudge_m);
     const double begin = std::clamp(x - piece.x_m, 0.0, piece.length_m);
     const double to_end = sign > 0.0 ? piece.length_m - begin : begin;
     const double part = std::min(left, to_end);
-    const auto s = [&](double along) { return piece.along_s ? along : piece.length_m - along; };
-    sum += std::abs(road::length_along_lane_m(network, {piece.road, piece.side * lane, s(begin), 0.0},
-                                              s(begin + sign * part), step_m));
+    const auto s = [&](double along) { return station_on(piece, along); };
+    sum += std::abs(road::length_along_lane_m(
+        network, {piece.road, piece.side * (lane - piece.lane_shift), s(begin), 0.0}, s(begin + sign * part), step_m));
     left -= part;
     x = wrap_x(corridor, x + sign * std::max(part, nudge_m));
     if (sign < 0.0 && corridor.closed && x <= 0.0) x += corridor.length_m;
@@ -123,11 +145,11 @@ double length_along_lane_m(const road::RoadNetwork& network, const Corridor& cor
 road::LanePosition position_at(const Corridor& corridor, double x_m, int lane) {
   const CorridorPiece& piece = piece_at(corridor, x_m);
   const double along = std::clamp(x_m - piece.x_m, 0.0, piece.length_m);
-  return {piece.road, piece.side * lane, piece.along_s ? along : piece.length_m - along, 0.0};
+  return {piece.road, piece.side * (lane - piece.lane_shift), station_on(piece, along), 0.0};
 }
 
 bool lane_open(const road::RoadNetwork& network, const Corridor& corridor, double x_m, int lane) {
-  if (lane < 1) return false;
+  if (lane - piece_at(corridor, x_m).lane_shift < 1) return false;
   const auto position = position_at(corridor, x_m, lane);
   const auto& section = road::section_at(network.roads[position.road], position.s_m);
   return section.has_lane(position.lane) && road::is_drivable(section.lane(position.lane).type);
@@ -135,12 +157,8 @@ bool lane_open(const road::RoadNetwork& network, const Corridor& corridor, doubl
 
 std::optional<double> x_of(const road::RoadNetwork&, const Corridor& corridor, const road::RoadPosition& position,
                            int lane) {
-  for (const CorridorPiece& piece : corridor.pieces)
-    if (piece.road == position.road)
-      return lane * piece.side > 0
-                 ? std::optional(piece.x_m + (piece.along_s ? position.s_m : piece.length_m - position.s_m))
-                 : std::nullopt;
-  return std::nullopt;
+  const CorridorPiece* piece = piece_of(corridor, position);
+  return piece && lane * piece->side > 0 ? std::optional(x_on_piece(*piece, position.s_m)) : std::nullopt;
 }
 
 }  // namespace septet::traffic

@@ -20,12 +20,19 @@ struct CorridorPiece {
   int side = -1;        ///< Sign of the lane ids: −1 right of the reference line, +1 left of it.
   double x_m = 0.0;     ///< x of the piece's beginning.
   double length_m = 0.0;
+  /// Of a route's piece, which is one lane section: its least s; how far within its ends stations are taken, so that
+  /// they are of this section; and what is added to the magnitude of a lane's id, so that a route's lane keeps its
+  /// number from piece to piece.
+  double from_s_m = 0.0, inset_m = 0.0;
+  int lane_shift = 0;
+  int lane = 0;  ///< Of a route's piece: id of the lane in which it is left.
 };
 
 struct Corridor {
   std::vector<CorridorPiece> pieces;
   double length_m = 0.0;
-  bool closed = false;  ///< A ring: x wraps at length_m.
+  bool closed = false;    ///< A ring: x wraps at length_m.
+  bool is_route = false;  ///< A stretch of a route: x begins anywhere.
 };
 
 /// The corridor through a lane, from the roads' beginning to their end (or back to itself).
@@ -47,6 +54,14 @@ inline double distance_m(const Corridor& corridor, double from_x_m, double to_x_
 double length_along_lane_m(const road::RoadNetwork& network, const Corridor& corridor, int lane, double x_m,
                            double ahead_m, double step_m);
 
+/// The piece of a road position: of several of one road the one that holds it, or comes nearest; null: its road is not
+/// of this corridor.
+const CorridorPiece* piece_of(const Corridor& corridor, const road::RoadPosition& position);
+/// x of a station on a piece.
+inline double x_on_piece(const CorridorPiece& piece, double s_m) {
+  const double along_m = s_m - piece.from_s_m;
+  return piece.x_m + (piece.along_s ? along_m : piece.length_m - along_m);
+}
 const CorridorPiece& piece_at(const Corridor& corridor, double x_m);
 /// The position of lane `lane` at x, whether or not that lane can be driven on.
 road::LanePosition position_at(const Corridor& corridor, double x_m, int lane);

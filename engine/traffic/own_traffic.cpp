@@ -102,6 +102,8 @@ class CrossingTraffic final : public TrafficEngine {
     erring.errors = errors_;
     network_->start(erring, foreign);
   }
+  void see_crossings(std::span<const CrossingPlace> places) override { network_->see_crossings(places); }
+  void show_people(std::span<const PersonCrossing> people) override { now().show_people(people); }
   void stop() override { now().stop(); }
   void show_lights(std::span<const TrafficLight> lights) override { now().show_lights(lights); }
   void advance(std::span<const ForeignVehicle> foreign, double dt_s) override { now().advance(foreign, dt_s); }

@@ -2,8 +2,10 @@
 /// Interface to a drive's traffic: Septet's own models, or another simulator.
 ///
 ///     engine.see_walls(walls)                    once, before all else, where there are any
+///     engine.see_crossings(places)               once, where people walk
 ///     engine.start(parameters, foreign)          when the scenario requests a swarm
 ///     engine.show_lights(lights)                 each tick, where the roads have lights
+///     engine.show_people(people)                 each tick, where there are any
 ///     engine.advance(foreign, tick_s)            each tick
 ///     engine.append_participants(participants)   each snapshot
 ///
@@ -21,6 +23,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/sight/air.hpp"
 #include "engine/sight/walls.hpp"
+#include "engine/traffic/crossing.hpp"
 #include "engine/traffic/traffic.hpp"
 #include "engine/world/people_errors.hpp"
 #include "engine/world/traffic_light.hpp"
@@ -44,12 +47,17 @@ class TrafficEngine {
   virtual ~TrafficEngine() = default;
   /// Walls past which drivers do not see; they outlive the engine. An engine without this ability, or without junctions, ignores them.
   virtual void see_walls(const sight::Walls& /*walls*/) {}
+  /// Crossings on foot, once. An engine whose drivers look at no people ignores them.
+  virtual void see_crossings(std::span<const CrossingPlace> /*places*/) {}
   /// Starts a swarm around the first foreign vehicle; an earlier one is removed.
   virtual void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) = 0;
   /// Removes all vehicles.
   virtual void stop() = 0;
   /// Lights as they show in the next tick. An engine that lives where no lights hang ignores them.
   virtual void show_lights(std::span<const TrafficLight> /*lights*/) {}
+  /// People on crossings, and those who are to be let pass there, by crossing, in the next tick. An engine without this
+  /// ability ignores them.
+  virtual void show_people(std::span<const PersonCrossing> /*people*/) {}
   /// Advances by one tick. `foreign` has the same vehicles in the same order each time;
   /// new ones come last.
   virtual void advance(std::span<const ForeignVehicle> foreign, double dt_s) = 0;

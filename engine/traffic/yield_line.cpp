@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/road/lane_links.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/vehicle_model.hpp"
 
 namespace septet::traffic {
@@ -20,6 +21,7 @@ constexpr double before_crossing_m = 1.0, stop_line_near_m = 20.0;
 constexpr double over_crossing_m = 7.0, into_junction_m = 14.0;
 /// Distance of the middle of a walker, of a vehicle, from the middle of the path when they meet.
 constexpr double walker_reach_m = 1.6, vehicle_reach_m = 2.4;
+constexpr double usual_walk_mps = 1.3;
 constexpr double step_s = 0.1, same_way_cos = 0.77, least_mps = 0.3;
 
 /// Station at which a light's traffic stops.
@@ -40,8 +42,8 @@ bool is_walker(const Participant& participant) {
   return kind == ParticipantKind::pedestrian || kind == ParticipantKind::bicycle;
 }
 
-double arrival_s(const Participant& other, std::span<const Vec2> way, double reach_m) {
-  const Vec2 from(other.world_from_vehicle.position_m), velocity(other.velocity_mps);
+double arrival_s(const Participant& other, const Vec2& velocity, std::span<const Vec2> way, double reach_m) {
+  const Vec2 from(other.world_from_vehicle.position_m);
   const double turns_radps = other.angular_velocity_radps.z;
   const Vec2 left(-velocity.y, velocity.x);
   for (double t = 0.0; t < conflict_horizon_s; t += step_s) {
@@ -112,11 +114,18 @@ std::optional<Conflict> first_conflict(Kind kind, std::span<const Vec2> way, std
     if (other.id == self.id || is_walker(other) != (kind == Kind::crossing)) continue;
     if (vehicle_models()[other.model].kind == ParticipantKind::object) continue;
     const double far_m = glm::distance(way.front(), Vec2(other.world_from_vehicle.position_m));
-    const double mps = glm::length(Vec2(other.velocity_mps));
+    Vec2 velocity(other.velocity_mps);
+    if (is_person_of_swarm(other.id)) {
+      // Most walk along; one who would cross and waits counts as one who goes.
+      if (!other.lamps.has(Lamp::signal_green)) continue;
+      if (glm::length(velocity) < usual_walk_mps)
+        velocity = usual_walk_mps * Vec2(other.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0));
+    }
+    const double mps = glm::length(velocity);
     if (far_m > 20.0 + mps * conflict_horizon_s || mps < least_mps) continue;
     const Vec3 goes = other.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
     if (kind == Kind::give_way && glm::dot(Vec2(goes), Vec2(ahead)) > same_way_cos) continue;
-    const double in_s = arrival_s(other, way, kind == Kind::crossing ? walker_reach_m : vehicle_reach_m);
+    const double in_s = arrival_s(other, velocity, way, kind == Kind::crossing ? walker_reach_m : vehicle_reach_m);
     if (in_s < conflict_horizon_s && (!first || in_s < first->in_s)) first = Conflict{other.id, in_s};
   }
   return first;

@@ -44,7 +44,7 @@ struct Conflict {
   double in_s = 0.0;  ///< Time until a participant with right of way reaches the path; 0: is there.
 };
 /// The first participant to reach the path beyond a line: walkers at a crossing, vehicles at a give-way line, except
-/// those with the path of `self`. Empty at a light.
+/// those with the path of `self`. Of a swarm's people those who cross, or wait to. Empty at a light.
 std::optional<Conflict> first_conflict(YieldLine::Kind kind, std::span<const Vec2> way,
                                        std::span<const Participant> participants, const Participant& self);
 

@@ -39,6 +39,11 @@ HEAD = """<?xml version="1.0" encoding="UTF-8"?>
       </ConstraintGroup>
     </ParameterDeclaration>
     <ParameterDeclaration name="vehicles" parameterType="unsignedInt" value="60"/>
+    <ParameterDeclaration name="people" parameterType="unsignedInt" value="120">
+      <ConstraintGroup>
+        <ValueConstraint rule="lessOrEqual" value="1000"/>
+      </ConstraintGroup>
+    </ParameterDeclaration>
   </ParameterDeclarations>
   <CatalogLocations/>
   <RoadNetwork>
@@ -88,6 +93,9 @@ BODY = """    </TrafficSignals>
             </TrafficSwarmAction>
           </TrafficAction>
         </GlobalAction>
+        <UserDefinedAction>
+          <CustomCommandAction type="septet:people">count=$people radius_m=250</CustomCommandAction>
+        </UserDefinedAction>
         <Private entityRef="ego">
           <PrivateAction>
             <TeleportAction>

@@ -182,6 +182,14 @@ glm::vec3 paint_of(const Participant& participant, const scene::ResolvedScene& s
   return body_color(participant.paint);
 }
 
+/// True for one whose root an editor has hidden.
+bool is_hidden(const Participant& participant, const scene::ResolvedScene& scene,
+               const std::vector<std::pair<ParticipantId, std::uint32_t>>& hung) {
+  return std::ranges::any_of(hung, [&](const auto& entry) {
+    return entry.first == participant.id && scene.prototypes[entry.second].is_hidden;
+  });
+}
+
 /// Added with the vehicle's motion, without its lamps and its spray.
 void add_hung_things(instant::FrameInput& frame, const Participant& participant,
                      const std::vector<std::pair<ParticipantId, std::uint32_t>>& hung) {
@@ -232,6 +240,8 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
   const auto hung = hung_things(scene);
   for (const Participant& participant : shown.participants) {
     if (is_solid(participant.id)) continue;  // The scene draws it.
+    // Around the eyes is the cabin, whatever is hidden.
+    if (participant.id != viewpoint.inside && is_hidden(participant, scene, hung)) continue;
     add_hung_things(frame, participant, hung);
     const auto prototype = prototype_of(scene, vehicle_models()[participant.model].name);
     if (!prototype) continue;

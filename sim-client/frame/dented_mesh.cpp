@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -67,17 +68,25 @@ class Division {
     middles_.clear();
     std::vector<std::uint32_t> indices;
     std::vector<scene::MeshPart> parts;
+    std::vector<std::uint8_t> settled;
+    settled_.resize(mesh_.indices.size() / 3, 0);
     bool any = false;
     for (const scene::MeshPart& part : mesh_.parts) {
       const auto first = static_cast<std::uint32_t>(indices.size());
-      for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3)
-        any |= divide({mesh_.indices[part.first_index + i], mesh_.indices[part.first_index + i + 1],
-                       mesh_.indices[part.first_index + i + 2]},
-                      indices);
+      for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3) {
+        const std::array<std::uint32_t, 3> corners{mesh_.indices[part.first_index + i],
+                                                   mesh_.indices[part.first_index + i + 1],
+                                                   mesh_.indices[part.first_index + i + 2]};
+        const bool divided = !settled_[(part.first_index + i) / 3] && divide(corners, indices);
+        if (!divided) indices.insert(indices.end(), corners.begin(), corners.end());
+        settled.resize(indices.size() / 3, divided ? 0 : 1);
+        any |= divided;
+      }
       parts.push_back({first, static_cast<std::uint32_t>(indices.size()) - first, part.material});
     }
     mesh_.indices = std::move(indices);
     mesh_.parts = std::move(parts);
+    settled_ = std::move(settled);
     return any && mesh_.vertices.size() < most_vertices;
   }
 
@@ -85,7 +94,7 @@ class Division {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
   std::uint32_t middle(std::uint32_t a, std::uint32_t b) {
-    const auto [found, added] = middles_.try_emplace(std::minmax(a, b), none);
+    const auto [found, added] = middles_.try_emplace(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), none);
     if (added && is_divided(frame_, dents_, mesh_.vertices[a], mesh_.vertices[b])) {
       found->second = static_cast<std::uint32_t>(mesh_.vertices.size());
       const SurfaceVertex made = between(mesh_.vertices[std::min(a, b)], mesh_.vertices[std::max(a, b)]);
@@ -94,18 +103,13 @@ class Division {
     return found->second;
   }
 
+  /// Appends the parts of a triangle; false: it stays whole, and nothing is appended.
   bool divide(const std::array<std::uint32_t, 3>& t, std::vector<std::uint32_t>& into) {
     const auto put = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { into.insert(into.end(), {a, b, c}); };
-    if (!holds_a_dent(frame_, dents_, {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]})) {
-      put(t[0], t[1], t[2]);
-      return false;
-    }
+    if (!holds_a_dent(frame_, dents_, {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]})) return false;
     const std::array<std::uint32_t, 3> m{middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])};
     const auto count = std::ranges::count_if(m, [](std::uint32_t at) { return at != none; });
-    if (count == 0) {
-      put(t[0], t[1], t[2]);
-      return false;
-    }
+    if (count == 0) return false;
     if (count == 3) {
       put(t[0], m[0], m[2]);
       put(m[0], t[1], m[1]);
@@ -130,7 +134,9 @@ class Division {
   const Frame& frame_;
   std::span<const debris::Dent> dents_;
   scene::SurfaceMesh& mesh_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
+  std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< By the edge's ends, the lesser first.
+  /// By triangle: 1 where no edge is divided, now or later, which the edges' ends alone decide.
+  std::vector<std::uint8_t> settled_;
 };
 
 }  // namespace

@@ -11,6 +11,8 @@
 
 #include "car-io/driving_keys.hpp"
 #include "engine/world/car_warnings.hpp"
+#include "engine/world/guidance.hpp"
+#include "engine/world/guidance_words.hpp"
 #include "sim-client/frame/cockpit_drawing.hpp"
 
 namespace septet::frame {
@@ -104,6 +106,29 @@ std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::
   // Above the dials' middle, as a car's own display has it.
   if (const std::string warnings = warning_text(car_warnings_of(shown)); !warnings.empty())
     add(warnings, 0.0, below_px - small_px - 6.0, small_px, amber);
+  return texts;
+}
+
+std::vector<instant::OverlayText> guidance_texts(const Snapshot& shown, const rig::Rig& rig,
+                                                 const rig::Screen& screen) {
+  std::vector<instant::OverlayText> texts;
+  if (&screen != &rig::screen_ahead(rig)) return texts;
+  const auto guidance = guidance_of(shown);
+  if (!guidance) return texts;
+  constexpr double read_s = 6.0, ticks_ps = 120.0;
+  const double height_px = std::max(12.0, std::round(height_for_letters_px(screen) / 20.0));
+  const auto ahead = rig::point_ahead(rig, screen);
+  const double first_px = std::round(0.18 * screen.height_px);  // As a game's standing.
+  const auto add = [&](std::string text, double y_px, double size_px) {
+    texts.push_back(line(std::move(text), (ahead ? ahead->x : 0.5) * screen.width_px, y_px, size_px, white));
+    texts.back().background = panel;
+    texts.back().centered = true;
+  };
+  add(guidance_arrow(*guidance), first_px, height_px);
+  const bool is_fresh =
+      shown.tick >= guidance->told_at && static_cast<double>(shown.tick - guidance->told_at) < read_s * ticks_ps;
+  if (guidance->told_count > 0 && is_fresh)
+    add(guidance_sentence(guidance->told, "en"), first_px + height_px + 6.0, std::round(0.7 * height_px));
   return texts;
 }
 

@@ -18,6 +18,10 @@ namespace septet::frame {
 /// dials of its own; a stalled engine underneath. Empty on a screen whose rig does not ask for it.
 std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
+/// Guidance of the driver, high on the screen ahead: the next turn with its distance, and for a while the sentence that
+/// was told last. Empty where nobody guides him.
+std::vector<instant::OverlayText> guidance_texts(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
+
 /// Standing of a game, high on the screen ahead: level, points, time; a leader who gets away; the outcome. Empty if the
 /// scenario is not a game.
 std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);

@@ -61,6 +61,7 @@ instant::FrameInput ScreenFrames::frame(const Snapshot& shown, const scene::Reso
   // Speed, gear and points are the driver's.
   if (!are_drivers) return input;
   add(instruments(shown, *rig_, *screen_));
+  add(guidance_texts(shown, *rig_, *screen_));
   add(game_standing(shown, *rig_, *screen_));
   return input;
 }

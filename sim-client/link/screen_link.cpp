@@ -166,7 +166,8 @@ void ScreenLink::send(const ControlMessage& message, net::Reliability reliabilit
 
 void ScreenLink::report(ScreenReport report) {
   const auto& counters = ticks_.counters();
-  report.datagrams_lost = counters.lost;
+  // In lockstep, where a tick is repeated until it has come, a gap is what was not sent to this end.
+  report.datagrams_lost = welcome_ && welcome_->lockstep ? 0 : counters.lost;
   report.datagrams_repaired = counters.repaired;
   report.refused_ticks = refused_ticks_;
   send(report, net::Reliability::reliable);

@@ -77,10 +77,9 @@ class ScreenLink {
   bool scene_arrived() const { return scene_arrived_; }
   /// Brings the scene to the tick that is drawn next: later changes are kept back until it is their turn.
   void show_scene(Tick tick);
-  /// True if all changes that this tick shows have arrived.
-  bool has_scene_of(const frame::HistoryTick& tick) const {
-    return scene_.complete() && scene_.complete_revision() >= tick.header.scene_revision;
-  }
+  /// True in lockstep if the scene is the one that this tick shows: all of it has arrived, and nothing of a later tick, as
+  /// at a screen for which the others did not wait; it shows the newer tick then.
+  bool has_scene_of(const frame::HistoryTick& tick) const { return scene_.is_at(tick.header.scene_revision); }
   /// Time of the server's clock now; empty until a ping has come back.
   std::optional<double> server_time_s(double now_s) const;
 

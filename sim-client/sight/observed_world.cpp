@@ -52,7 +52,7 @@ ObservedWorld& ObservedWorld::operator=(ObservedWorld&&) noexcept = default;
 ObservedWorld::~ObservedWorld() = default;
 
 Expected<ObservedWorld> ObservedWorld::create(const SceneParts& scene, const StandingWorld& standing) {
-  auto geometry = raytrace::Geometry::create();
+  auto geometry = raytrace::Geometry::create(raytrace::Rays::few);
   if (!geometry) return tl::unexpected(geometry.error());
   auto parts =
       std::make_unique<Parts>(Parts{scene, standing, raytrace::SceneIndex(scene.moving), std::move(*geometry)});

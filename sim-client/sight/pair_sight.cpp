@@ -44,7 +44,7 @@ std::vector<MirrorSight> mirror_sights(const ObservedWorld& world, const Partici
                                        const std::vector<Mirror>& mirrors, const Participant& target,
                                        const RasterSettings& settings) {
   std::vector<MirrorSight> sights;
-  const Box box = box_around(target);
+  const BoxInTheWay box(box_around(target));
   for (const Mirror& mirror : mirrors) {
     const double step_m = 2.0 * mirror.half_width_m / settings.mirror_across;
     const auto rows = static_cast<std::uint32_t>(std::max(1.0, std::round(2.0 * mirror.half_height_m / step_m)));
@@ -55,7 +55,7 @@ std::vector<MirrorSight> mirror_sights(const ObservedWorld& world, const Partici
         const auto line =
             reflected(world.eye_m(), observer.world_from_vehicle, mirror, (x + 0.5) * step_m - mirror.half_width_m,
                       (y + 0.5) * 2.0 * mirror.half_height_m / rows - mirror.half_height_m);
-        if (!line || !entry_m(box, line->onward)) continue;
+        if (!line || !box.entry_m(line->onward)) continue;
         const OnLine met = world.along(line->onward, target.id, off_the_glass_m);
         if (!met.meets_target) continue;
         if (sight.silhouette++ == 0 || met.target_m < sight.nearest_m) sight.nearest_m = met.target_m;

@@ -9,12 +9,13 @@
 #include <glm/geometric.hpp>
 
 #include "engine/scenery/vehicles/cockpit.hpp"
+#include "engine/world/rider.hpp"
 #include "logging/study/measures/collisions.hpp"
 
 namespace septet::sight {
 namespace {
 
-/// Least distances of everybody from one participant, between two times.
+/// Least distances of everybody from one participant, between two times; riders by their machines' numbers.
 Expected<std::map<ParticipantId, double>> distances_from(const logging::SessionReader& session, ParticipantId centre,
                                                          const PairChoice& choice) {
   std::map<ParticipantId, double> least_m;
@@ -24,20 +25,23 @@ Expected<std::map<ParticipantId, double>> distances_from(const logging::SessionR
     const auto world = cursor->next();
     if (!world) return tl::unexpected(world.error());
     if (!*world || (*world)->simulated_time_s > choice.to_s) return least_m;
-    const Participant* from = find_participant(**world, centre);
+    const Participant* from = find_person(**world, centre);
     if (!from) continue;
     for (const Participant& other : (*world)->participants) {
-      if (other.id == centre) continue;
+      const ParticipantId number = machine_of(other.id);
+      if (other.id == centre || number == centre || find_person(**world, number) != &other) continue;
       const double distance_m = glm::length(other.world_from_vehicle.position_m - from->world_from_vehicle.position_m);
-      const auto [known, is_new] = least_m.try_emplace(other.id, distance_m);
+      const auto [known, is_new] = least_m.try_emplace(number, distance_m);
       if (!is_new) known->second = std::min(known->second, distance_m);
     }
   }
 }
 
-/// Two participants, the lesser number first.
+/// Two participants, the lesser number first; a rider by his machine's.
 using Two = std::pair<ParticipantId, ParticipantId>;
-Two two(ParticipantId a, ParticipantId b) { return {std::min(a, b), std::max(a, b)}; }
+Two two(ParticipantId a, ParticipantId b) {
+  return {std::min(machine_of(a), machine_of(b)), std::max(machine_of(a), machine_of(b))};
+}
 
 /// First contact of each two: with the driver's car, or of two others.
 Expected<std::map<Two, double>> contacts_of(const logging::SessionReader& session, std::optional<ParticipantId> driver,

@@ -27,7 +27,8 @@ struct ChosenPair {
 bool has_eyes(const logging::Stay& stay);
 
 /// Chosen pairs: those of collisions first, then by least distance. With both names that pair; with one, everybody who
-/// comes within range of them; without, of the driver's car. Errors: an unknown name, nobody within range, damage.
+/// comes within range of them; without, of the driver's car. A rider is chosen by his machine's number, which stands for
+/// him also when he has left it, unless he is named himself. Errors: an unknown name, nobody within range, damage.
 Expected<std::vector<ChosenPair>> choose_pairs(const logging::SessionReader& session, const PairChoice& choice);
 
 }  // namespace septet::sight

@@ -11,6 +11,7 @@
 
 #include "engine/core/parallel_for.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/world/rider.hpp"
 #include "logging/session/recorded_scene.hpp"
 #include "logging/session/session_reader.hpp"
 #include "sim-client/frame/effects_drawing.hpp"
@@ -55,12 +56,13 @@ class Watcher {
     std::vector<SightRow> rows;
     std::optional<ParticipantId> eyes;
     for (const std::size_t n : which) {
-      const Participant* observer = find_participant(*world, pairs[n].observer);
-      const Participant* target = find_participant(*world, pairs[n].target);
+      const Participant* observer = find_person(*world, pairs[n].observer);
+      const Participant* target = find_person(*world, pairs[n].target);
       if (!observer || !target) continue;
       if (eyes != observer->id) observed_.look_from(observer->id, shared_->seat);
       eyes = observer->id;
       SightRow row{.tick = tick, .pair = n};
+      row.observer_left = observer->id != pairs[n].observer, row.target_left = target->id != pairs[n].target;
       row.distance_m = glm::length(box_around(*target).world_from_box.position_m - observed_.eye_m());
       row.straight = straight_sight(observed_, *target, settings_->raster);
       if (with_mirrors && settings_->mirrors)

@@ -22,7 +22,7 @@ struct Threshold {
   }
 };
 
-/// One observer and one target, by number.
+/// One observer and one target, by number. A two-wheeler's number stands for its rider, on it and thrown off it.
 struct DirectedPair {
   ParticipantId observer = 0, target = 0;
   bool operator==(const DirectedPair&) const = default;
@@ -40,8 +40,9 @@ struct SightSettings {
 /// Sight of a pair at a tick. There is none at ticks at which one of the two is not there.
 struct SightRow {
   Tick tick = 0;
-  std::size_t pair = 0;     ///< Index.
-  double distance_m = 0.0;  ///< From the eyes to the middle of the target's box.
+  std::size_t pair = 0;                             ///< Index.
+  double distance_m = 0.0;                          ///< From the eyes to the middle of the target's box.
+  bool observer_left = false, target_left = false;  ///< Whether they are riders who have left their machines.
   Sight straight;
   std::vector<MirrorSight> mirrors;
 };

@@ -76,6 +76,21 @@ std::string mirrors_in_words(const std::vector<const SightRow*>& rows, const Ses
   return text;
 }
 
+/// Word for riders who leave their machines, of whom the rest of the table tells.
+std::string leaving_in_words(const std::vector<const SightRow*>& rows, const SessionSight& sight,
+                             const Looking& looking) {
+  std::string text;
+  const auto add = [&](bool SightRow::*has_left, const logging::Stay& machine) {
+    const auto first = std::ranges::find_if(rows, [&](const SightRow* row) { return row->*has_left; });
+    if (first != rows.end())
+      text += fmt::format("; from {:.2f} s on {} is the rider, off the machine",
+                          static_cast<double>((*first)->tick) * sight.tick_s, short_name(machine));
+  };
+  add(&SightRow::target_left, looking.target);
+  add(&SightRow::observer_left, looking.observer);
+  return text;
+}
+
 }  // namespace
 
 std::vector<Looking> lookings_of(const std::vector<ChosenPair>& pairs) {
@@ -109,7 +124,8 @@ std::vector<std::string> sentences(const SessionSight& sight, const std::vector<
     const SightRow& nearest = **std::ranges::min_element(rows, {}, &SightRow::distance_m);
     const double end_s = end_s_of(rows, sight, looking);
     const std::vector<Stretch> stretches = told_stretches(sight, pair, end_s);
-    const std::string mirrors = mirrors_in_words(rows, sight, threshold, end_s);
+    const std::string mirrors =
+        mirrors_in_words(rows, sight, threshold, end_s) + leaving_in_words(rows, sight, looking);
     if (stretches.empty()) {
       all.push_back(fmt::format("{} was at no time unobstructed for {} from {:.2f} to {:.2f} s{}.", target, observer,
                                 time_s(rows.front()->tick), time_s(rows.back()->tick), mirrors));

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include <fmt/core.h>
+
 namespace septet::server {
 namespace {
 
@@ -30,10 +32,13 @@ void EditTurns::begin_tick(Tick from) {
   }
 }
 
-bool EditTurns::has_room_for(const SceneRequest& request) const {
+std::optional<std::string> EditTurns::refusal(const SceneRequest& request) const {
+  if (const Tick tick = request.batch.tick; tick > from_ && tick - from_ > most_ticks_ahead)
+    return fmt::format("tick {} is more than {} ticks ahead of {}: name a nearer one", tick, most_ticks_ahead, from_);
   const auto found = queues_.find(request.editor.name);
   const std::size_t waiting = found == queues_.end() ? 0 : found->second.bytes;
-  return waiting + memory_of(request) <= most_edit_bytes_waiting;
+  if (waiting + memory_of(request) <= most_edit_bytes_waiting) return std::nullopt;
+  return "this editor's changes that wait for their turn or tick fill its queue: send fewer";
 }
 
 void EditTurns::add(SceneRequest request) {

@@ -25,6 +25,8 @@ static_assert(most_edit_work_a_tick * bytes_of_edit_work == replication::max_bat
 inline constexpr std::size_t most_edit_work_of_all_a_tick = 4 * most_edit_work_a_tick;
 /// Of one editor's batches that wait, for a tick that they name or for their turn: what one fills is no other's.
 inline constexpr std::size_t most_edit_bytes_waiting = 64u << 20;
+/// How far ahead a batch may name its tick: a million seconds, the longest lifetime.
+inline constexpr Tick most_ticks_ahead = 120'000'000;
 
 class EditTurns {
  public:
@@ -32,8 +34,8 @@ class EditTurns {
   /// looked at, with the same tick.
   void begin_tick(Tick from);
   Tick tick() const { return from_; }
-  /// True if its editor's queue has room for the request.
-  bool has_room_for(const SceneRequest& request) const;
+  /// Why the request may not wait: its editor's queue is full, or the tick that it names is too far ahead.
+  std::optional<std::string> refusal(const SceneRequest& request) const;
   /// It is due at once, or at the tick that it names.
   void add(SceneRequest request);
   /// The next request whose turn is in this tick, if any.

@@ -1,6 +1,8 @@
 #include "sim-server/attendants/scene_edits.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -11,6 +13,7 @@
 #include "engine/scene/edit_file.hpp"
 #include "program/console.hpp"
 #include "sim-server/drive/operated.hpp"
+#include "sim-server/host/serve.hpp"
 
 namespace septet::server {
 namespace {
@@ -25,6 +28,9 @@ bool is_end_of_lifetime(const SceneRequest& request) {
 }  // namespace
 
 Expected<void> SceneEdits::begin() {
+  std::error_code unknown;
+  if (const auto folder = save_.parent_path(); !folder.empty() && !std::filesystem::is_directory(folder, unknown))
+    return failure("there is no such folder", save_.string(), "make it, or name another file for --save");
   if (!gate_) return {};
   if (log_) gate_->log_to(log_->session());
   if (host_) gate_->tell([this](const scene::Command& command, Tick from) { host_->scene_changed(command, from); });
@@ -59,9 +65,8 @@ void SceneEdits::take_requests(Tick from, const Moment& moment) {
   for (SceneRequest& request : host_->take_scene_requests()) {
     if (!gate_)
       host_->refuse_scene(request, "a session that is shown again cannot be changed: edit a drive", now_s);
-    else if (!turns_.has_room_for(request))
-      host_->refuse_scene(request, "this editor's changes that wait for their turn or tick fill its queue: send fewer",
-                          now_s);
+    else if (const auto why_not = turns_.refusal(request))
+      host_->refuse_scene(request, *why_not, now_s);
     else
       turns_.add(std::move(request));
   }
@@ -78,11 +83,13 @@ void SceneEdits::make(const SceneRequest& request, Tick from, double now_s) {
   host_->scene_done(request, from);
 }
 
-void SceneEdits::close(ServeResult&) {
+void SceneEdits::close(ServeResult& result) {
   if (save_.empty() || !drive_.generated) return;
   const auto written = document::write_text_file(save_, scene::edits_between(*drive_.generated, drive_.store));
-  program::say(written ? fmt::format("What differs from the generated world is in {}", save_.string())
-                       : describe(written.error()));
+  if (written)
+    program::say(fmt::format("What differs from the generated world is in {}", save_.string()));
+  else if (!result.error)
+    result.error = written.error();
 }
 
 void SceneEdits::after_tick(const std::shared_ptr<const TakenSnapshot>& tick, double) {

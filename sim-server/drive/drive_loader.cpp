@@ -15,6 +15,7 @@
 #include "engine/simulation/deviation_text.hpp"
 #include "engine/simulation/given_motion.hpp"
 #include "engine/simulation/lights_stage.hpp"
+#include "engine/simulation/walkways_of_drive.hpp"
 #include "logging/study/lesson/lesson.hpp"
 #include "program/resources.hpp"
 #include "sim-server/drive/departing_drive.hpp"
@@ -110,6 +111,8 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std
   if (!model->scenario.signals.empty())
     model->lights = simulation::switched_lights(roadside::RoadShape(model->roads, roadside::usual_overrun_m),
                                                 model->scenario.signals);
+  model->walkways = std::make_shared<const traffic::WalkwayGraph>(
+      simulation::walkways_of(model->roads, *model->obstacles, *model->raised, model->lights));
   model->yield_lines = traffic::yield_lines(model->roads);
   if (!model->raised->complete())
     drive.warnings.push_back(road_source->name +

@@ -1,5 +1,6 @@
 #include "sim-server/drive/edit_rights.hpp"
 
+#include <algorithm>
 #include <type_traits>
 #include <variant>
 
@@ -67,8 +68,20 @@ std::optional<std::string> BatchRights::refusal(EditKind kind, scene::NodeId id)
                      is_in_reach ? fmt::format("the word {}", net::name_of(kind)) : "a prefix of that name");
 }
 
-/// A child is placed by its parent, so it is moved; and one that is still to come may be somebody else's.
+bool BatchRights::is_part_of_generated(scene::NodeId id) const {
+  if (makers_.contains(id)) return false;
+  return std::ranges::any_of(store_.nodes(), [&](const auto& entry) {
+    const auto* object = std::get_if<scene::ObjectData>(&entry.second.data);
+    return object && !makers_.contains(entry.first) && std::ranges::any_of(object->links, [&](const auto& link) {
+             return link.second.label == "child" && link.second.target == id;
+           });
+  });
+}
+
+/// A child is placed by its parent, so it is moved; and one that is still to come may be somebody else's. A generated thing's
+/// part stays where it is, and is seen once more.
 std::optional<std::string> BatchRights::refusal_to_hang(scene::NodeId child) const {
+  if (editor_.rights.includes(EditKind::create) && is_part_of_generated(child)) return std::nullopt;
   if (store_.find(child) || created_.contains(child)) return refusal(EditKind::move, child);
   return fmt::format("there is no node {} to be a child: create it first", child);
 }

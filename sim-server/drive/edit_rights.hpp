@@ -26,6 +26,8 @@ class BatchRights {
   std::optional<std::string> refusal(net::EditKind kind, scene::NodeId node) const;
   std::optional<std::string> refusal_to_hang(scene::NodeId child) const;
   bool is_own(scene::NodeId node) const;
+  /// True for a child of a thing that the world was generated with.
+  bool is_part_of_generated(scene::NodeId node) const;
 
   const scene::Store& store_;
   const Editor& editor_;

@@ -71,6 +71,8 @@ LiveDrive::LiveDrive(std::shared_ptr<const simulation::Model> model, DriverSeat 
 void LiveDrive::log_to(SessionLog& log) {
   log_ = &log;
   log_->record_tick(newest_, {});
+  for (const simulation::OperatorCommand& command : std::exchange(unlogged_, {}))
+    log_->record_command(state_.tick + 1, command);
   if (state_.tick > 0) keep_state();
 }
 
@@ -260,6 +262,7 @@ std::optional<Error> LiveDrive::take_error() {
 Expected<void> LiveDrive::command(const simulation::OperatorCommand& command) {
   auto done = simulation::apply_operator_command(*model_, command, state_, events_);
   if (done && log_) log_->record_command(state_.tick + 1, command);
+  if (done && !log_) unlogged_.push_back(command);
   return done;
 }
 

@@ -105,6 +105,7 @@ class LiveDrive final : public TickSource {
   std::shared_ptr<const simulation::Model> model_;
   DriverSeat seat_;
   SessionLog* log_ = nullptr;
+  std::vector<simulation::OperatorCommand> unlogged_;  ///< Given before there was a log.
   simulation::State state_;
   double instructor_brake_ = 0.0;
   DriverInput held_;                       ///< The last controls from a screen, which arrive less often than ticks.

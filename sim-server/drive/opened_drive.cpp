@@ -174,6 +174,9 @@ Expected<void> open_live(const ServerOptions& options, OpenedDrive& drive, progr
   auto state = first_state(options, *drive.loaded.model, std::move(*traffic));
   if (!state) return tl::unexpected(state.error());
   auto source = LiveDrive::start(drive.loaded.model, std::move(*state), std::move(*seat));
+  if (!options.to.empty())
+    if (auto guided = source->command(simulation::GuideDriver{options.to}); !guided)
+      return failure(guided.error().what, "--to", guided.error().remedy);
   drive.live = source.get();
   drive.source = std::move(source);
   return {};

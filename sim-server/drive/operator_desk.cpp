@@ -207,6 +207,7 @@ void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>
   if (lesson_) view.lesson = lesson_->view();
   view.placed = placing_->view();
   view.triggers = simulation::triggers(loaded_.model->scenario, scenario);
+  view.hazards = simulation::settable_hazards(loaded_.model->scenario, scenario);
   page_->show(std::move(view));
 }
 

@@ -23,6 +23,8 @@ struct ServerOptions {
   double seconds = 0.0;  ///< Simulated; 0: until stopped.
   std::uint64_t seed = 1;
   std::string driver;            ///< A simulated driver, who replaces the rig's source; empty: the rig's.
+  std::string to;                ///< Goal to which the driver is guided; empty: nobody guides him.
+  std::string language = "en";   ///< Of spoken guidance: en, de or sv.
   std::string motion;            ///< Table by which the driver's car goes; empty: somebody drives.
   std::string vehicle;           ///< A file or a name; empty: the rig's.
   std::filesystem::path models;  ///< A user's folder of models; empty: none.

@@ -1,8 +1,10 @@
 #include "sim-server/drive/world_gate.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <numeric>
 #include <set>
+#include <system_error>
 #include <variant>
 
 #include <fmt/core.h>
@@ -12,6 +14,7 @@
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/command_text.hpp"
 #include "engine/scene/command_validation.hpp"
+#include "engine/scene/growth.hpp"
 #include "engine/simulation/model.hpp"
 #include "sim-server/drive/batch_failures.hpp"
 #include "sim-server/drive/motion_times.hpp"
@@ -19,9 +22,29 @@
 namespace septet::server {
 namespace {
 
+/// Why the shapes that a batch sizes would hold up the drive, or nothing.
+std::optional<std::string> too_large(const scene::Store& store, std::span<const scene::Command> batch) {
+  for (const scene::Command& command : batch)
+    if (const auto* size = std::get_if<scene::GeometrySizeSet>(&command);
+        size && std::max(size->vertices, size->polygons) > most_elements_of_shape)
+      return fmt::format(
+          "a shape of {} vertices and {} polygons, of each {} are the most: divide it among several nodes",
+          size->vertices, size->polygons, most_elements_of_shape);
+  constexpr std::uint64_t most = replication::most_grown_bytes_of_batch;
+  const std::uint64_t grown = scene::grown_bytes(store, batch);
+  if (grown <= most) return std::nullopt;
+  return fmt::format(
+      "its sizes let shapes grow by {} bytes, of which one batch, done whole between two ticks, has {} at most: set "
+      "them in several batches",
+      grown, most);
+}
+
 replication::Refusal refusal_of(std::string node, std::string why) {
   return {{{0, std::move(node), std::move(why)}}, 0};
 }
+
+/// Names kept of nodes that are gone.
+constexpr std::size_t most_gone_named = 4096;
 
 std::size_t encoded_bytes(std::span<const scene::Command> commands) {
   Bytes bytes;
@@ -30,6 +53,32 @@ std::size_t encoded_bytes(std::span<const scene::Command> commands) {
 }
 
 }  // namespace
+
+/// A node that is gone has a number alone: its name says more.
+replication::Refusal WorldGate::with_names(replication::Refusal refusal, std::span<const scene::Command> batch) const {
+  for (replication::Failure& failed : refusal.failures) {
+    if (failed.index >= batch.size() || std::holds_alternative<scene::NodeCreate>(batch[failed.index])) continue;
+    scene::NodeId id = scene::no_node;
+    const char* const end = failed.node.data() + failed.node.size();
+    const auto [stop, error] = std::from_chars(failed.node.data(), end, id);
+    const auto name = error == std::errc() && stop == end ? gone_.find(id) : gone_.end();
+    if (name == gone_.end() || drive_.store.find(id)) continue;
+    failed.node = name->second.substr(0, replication::max_failed_name_bytes);
+    failed.why = fmt::format("{} is gone: it was removed or replaced", failed.node);
+  }
+  return refusal;
+}
+
+/// Before the batch is done.
+void WorldGate::note_gone(std::span<const scene::Command> batch) {
+  for (const scene::Command& command : batch) {
+    const auto* destroy = std::get_if<scene::NodeDestroy>(&command);
+    const scene::Node* node = destroy ? drive_.store.find(destroy->node) : nullptr;
+    if (!node || node->name.empty()) continue;
+    if (gone_.size() >= most_gone_named) gone_.erase(gone_.begin());
+    gone_[destroy->node] = node->name;
+  }
+}
 
 /// What the scene makes of the simulation: commands that were found possible, so none is refused.
 void WorldGate::execute(const std::vector<simulation::OperatorCommand>& commands) {
@@ -57,6 +106,9 @@ void WorldGate::begin() {
 
 std::optional<replication::Refusal> WorldGate::pass(const Editor& editor, std::span<const scene::Command> batch,
                                                     Tick from, const Batch* undone, Batch* done) {
+  // What an undo brings back was there.
+  if (auto why = undone ? std::nullopt : too_large(drive_.store, batch)) return refusal_of({}, std::move(*why));
+  note_gone(batch);
   NodeMakers destroyed;
   for (const scene::Command& command : batch)
     if (const auto* destroy = std::get_if<scene::NodeDestroy>(&command)) {
@@ -78,7 +130,7 @@ std::optional<replication::Refusal> WorldGate::pass(const Editor& editor, std::s
   auto refused = pass_gate(
       drive_.store, batch, editor, makers_, [&](const scene::Command& command) { done_(command, from); }, accept,
       undone ? &undone->makers : nullptr, &inverse);
-  if (refused) return refused;
+  if (refused) return with_names(std::move(*refused), batch);
   for (const scene::Command& command : batch) {
     const scene::NodeId node = scene::node_of(command);
     if (std::holds_alternative<scene::NodeDestroy>(command))

@@ -31,6 +31,9 @@ namespace septet::server {
 /// Of one author: batches that may be undone, and bytes of the commands that would do so. Older ones are forgotten.
 inline constexpr std::size_t most_undone_batches = 100, most_undone_bytes = 32u << 20;
 
+/// Vertices, and polygons, of a shape that is edited: to make or remove a larger one holds up the drive for many ticks.
+inline constexpr std::uint32_t most_elements_of_shape = 1u << 20;
+
 class WorldGate {
  public:
   /// Told each command that was done, and the first tick that shows it.
@@ -71,6 +74,8 @@ class WorldGate {
     std::size_t bytes = 0;
   };
 
+  replication::Refusal with_names(replication::Refusal refusal, std::span<const scene::Command> batch) const;
+  void note_gone(std::span<const scene::Command> batch);
   void execute(const std::vector<simulation::OperatorCommand>& commands);
   void tag_pushable(Tick from);
   void remember(const Editor& editor, Batch batch);
@@ -82,6 +87,7 @@ class WorldGate {
   Done done_ = [](const scene::Command&, Tick) {};
   NodeMakers makers_;
   std::map<scene::NodeId, std::string> changers_;  ///< Who has changed a node last.
+  std::map<scene::NodeId, std::string> gone_;      ///< Names of nodes that are gone, so that a refusal can name them.
   std::map<std::string, std::deque<Batch>> undo_;  ///< By author, the newest last.
   SolidThings solids_;
   scene::ConstantsTold constants_;

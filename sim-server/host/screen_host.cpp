@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -72,6 +73,7 @@ ScreenHost::ScreenHost(net::DatagramSocket& lane_socket, net::DatagramSocket& ti
     : options_(std::move(options)),
       lane_(lane_socket, {options_.identity, options_.session, options_.allowed, options_.limits}),
       publisher_(tick_socket, options_.identity, options_.session, {options_.max_datagram_bytes, true}),
+      every_tick_(tick_socket, options_.identity, options_.session, {options_.max_datagram_bytes, true}, publisher_),
       baselines_(baselines_for(options_.welcome.lockstep)),
       store_(store),
       scene_(store, instance_of(options_.session)),
@@ -156,10 +158,15 @@ void ScreenHost::add_unicast(net::ClientId client, std::uint16_t port) {
   const auto* info = lane_.info(client);
   if (!info) return;
   const net::Address destination{info->address.ip, port};
-  if (const auto before = unicast_.find(client); before != unicast_.end())
-    publisher_.remove_destination(before->second);
+  if (const auto before = unicast_.find(client); before != unicast_.end()) remove_destination(before->second);
   unicast_[client] = destination;
-  publisher_.add_destination(destination);
+  const bool is_told_every_tick = options_.welcome.lockstep && watchers_.contains(client);
+  (is_told_every_tick ? every_tick_ : publisher_).add_destination(destination);
+}
+
+void ScreenHost::remove_destination(const net::Address& destination) {
+  publisher_.remove_destination(destination);
+  every_tick_.remove_destination(destination);
 }
 
 net::Rights ScreenHost::rights_of(const std::string& name) const {
@@ -254,10 +261,14 @@ void ScreenHost::refuse_scene(const SceneRequest& request, replication::Refusal 
 void ScreenHost::on_operator_line(net::ClientId client, const OperatorLine& line) {
   OperatorRequest request{client, clients_.at(client), line.number, line.line};
   const net::Rights rights = rights_of(request.name);
-  if (!rights.may_operate && !(line.line == "undo" && rights.edit))
+  const bool undoes = line.line == "undo";
+  if (!rights.may_operate && !(undoes && rights.edit)) {
+    const auto [deed, word] =
+        undoes ? std::pair("undo, as it changes nothing", "edit") : std::pair("operate", "operate");
     return answer(
-        request, fmt::format("the key of {0} may not operate: allowed-clients needs `KEY {0} … operate`", request.name),
-        0);
+        request,
+        fmt::format("the key of {0} may not {1}: allowed-clients needs `KEY {0} … {2}`", request.name, deed, word), 0);
+  }
   if (operator_requests_.size() >= most_operator_lines)
     return answer(request, "too many lines wait for this tick already: send fewer", 0);
   operator_requests_.push_back(std::move(request));
@@ -430,7 +441,7 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
   scene_.disconnect(client);
   baselines_.leave(client);
   if (const auto destination = unicast_.find(client); destination != unicast_.end()) {
-    publisher_.remove_destination(destination->second);
+    remove_destination(destination->second);
     unicast_.erase(destination);
   }
   watchers_.erase(client);
@@ -451,6 +462,16 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
 }
 
 void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_s) {
+  send_tick(std::move(taken), now_s, true);
+  for (HostedScreen& screen : screens_)
+    if (screen.live() && !screen.unanswered_since_s) screen.unanswered_since_s = now_s;
+}
+
+void ScreenHost::publish_to_watchers(std::shared_ptr<const TakenSnapshot> taken, double now_s) {
+  if (!every_tick_.destinations().empty()) send_tick(std::move(taken), now_s, false);
+}
+
+void ScreenHost::send_tick(std::shared_ptr<const TakenSnapshot> taken, double now_s, bool is_for_screens) {
   baselines_.advance_to(now_s);
   const WireSnapshot* baseline = nullptr;
   if (const auto tick = baselines_.baseline()) {
@@ -465,9 +486,8 @@ void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_
   put_tick_header(writer, header);
   encode_snapshot(taken->wire(), baseline, payload);
   last_tick_bytes_ = payload.size();
-  publisher_.publish(taken->snapshot().tick, payload);
-  for (HostedScreen& screen : screens_)
-    if (screen.live() && !screen.unanswered_since_s) screen.unanswered_since_s = now_s;
+  if (is_for_screens) publisher_.publish(taken->snapshot().tick, payload);
+  if (!every_tick_.destinations().empty()) every_tick_.publish(taken->snapshot().tick, payload);
   constexpr std::size_t most_begun = 480;  // Four seconds: a screen that shows a tick later has been away.
   if (!options_.welcome.lockstep) begun_s_.emplace_back(taken->snapshot().tick, now_s);
   if (begun_s_.size() > most_begun) begun_s_.pop_front();

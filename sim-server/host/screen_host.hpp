@@ -140,8 +140,13 @@ class ScreenHost {
   /// Sends one tick to all screens, as a difference to a tick that all live screens hold. `now_s`: time when the tick
   /// began, by reading the driver's controls.
   void publish(std::shared_ptr<const TakenSnapshot> taken, double now_s);
+  /// The same of a tick that lockstep's screens do not draw: to clients that watch, for which nothing waits.
+  void publish_to_watchers(std::shared_ptr<const TakenSnapshot> taken, double now_s);
   /// Sends the newest tick again: in lockstep, if a screen has not acknowledged it.
-  void repeat_newest() { publisher_.repeat_newest(); }
+  void repeat_newest() {
+    publisher_.repeat_newest();
+    every_tick_.repeat_newest();
+  }
 
   const std::vector<HostedScreen>& screens() const { return screens_; }
   /// True once every screen of the rig, and the car if it is on another machine, is connected, and each screen has the
@@ -195,6 +200,8 @@ class ScreenHost {
   /// True where the rig has a screen or a car of this name.
   bool is_of_the_rig(const std::string& name) const;
   void add_unicast(net::ClientId client, std::uint16_t port);
+  void remove_destination(const net::Address& destination);
+  void send_tick(std::shared_ptr<const TakenSnapshot> taken, double now_s, bool is_for_screens);
   void on_car_hello(net::ClientId client, const control::CarHello& hello, double now_s);
   /// Reports the reason to the client and to the operator.
   void refuse(net::ClientId client, const std::string& reason, double now_s);
@@ -210,6 +217,7 @@ class ScreenHost {
   ScreenHostOptions options_;
   net::SecureServer lane_;
   net::TickPublisher publisher_;
+  net::TickPublisher every_tick_;  ///< In lockstep, to clients that watch.
   net::BaselineTracker baselines_;
   const scene::Store& store_;
   replication::ReplicationServer scene_;

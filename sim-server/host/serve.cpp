@@ -215,7 +215,10 @@ void run_lockstep(ScreenLoop& loop) {
     if (!snapshot) return;
     loop.show_alarm();
     const Tick tick = snapshot->snapshot().tick;
-    if (tick % loop.options.draw_every_ticks != 0) continue;
+    if (tick % loop.options.draw_every_ticks != 0) {
+      loop.host.publish_to_watchers(snapshot, loop.clock.now_s());
+      continue;
+    }
     loop.host.publish(snapshot, loop.clock.now_s());
     const double asked_s = loop.clock.now_s();
     const auto look = [&] {

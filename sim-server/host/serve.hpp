@@ -1,9 +1,9 @@
 #pragma once
 /// The server's loop: one snapshot per tick from the source, to all screens.
 ///
-/// In lockstep there is only simulated time: every n-th tick is sent, and the next one is not taken before all live
-/// screens have shown it. In real time a tick is due every 1/rate seconds, regardless of the screens. At any end, the
-/// screens are told, and the result has the reason.
+/// In lockstep there is only simulated time: every n-th tick is sent to screens, and the next one is not taken before all
+/// live screens have shown it; clients that watch are sent every tick. In real time a tick is due every 1/rate seconds,
+/// regardless of the screens. At any end, the screens are told, and the result has the reason.
 
 #include <cstdint>
 #include <functional>

@@ -144,6 +144,7 @@ struct DriveView {
   std::vector<std::pair<std::string, bool>> entities;
   std::vector<ThingView> lying;
   std::vector<std::string> triggers;  ///< Acts and events that have not begun.
+  std::vector<std::string> hazards;   ///< Hazards of the scenario that may be set on the map now.
   bool instructor_brakes = false;
   std::vector<bool> faults;                  ///< States in the order of DriveFacts::faults: true if it has failed.
   std::shared_ptr<const LessonView> lesson;  ///< A new object whenever it changes; null: no lesson, or no marks.

@@ -331,6 +331,7 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
                {"actuators", nullptr},
                {"screens", screens_of(view, facts.tick_rate_hz)},
                {"triggers", view.triggers},
+               {"hazards", view.hazards},
                {"instructor_brakes", view.instructor_brakes},
                {"faults", view.faults}};
   json["fault"] = view.fault ? Json(*view.fault) : Json(nullptr);

@@ -13,6 +13,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include "engine/core/random.hpp"
+#include "engine/instant/atmosphere.hpp"
+#include "engine/render/passes/smoke_pass.hpp"
+#include "engine/render/passes/smoke_shade.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/road/road_position.hpp"
@@ -58,7 +62,8 @@ RigidTransform in_lane(int lane, double s_m) {
 struct Weather {
   Environment environment;
   bool lamps = false;
-  double s_m = 500.0;  ///< Where the road is looked at.
+  double s_m = 500.0;    ///< Where the road is looked at.
+  bool smoking = false;  ///< A plume of 20,000 puffs crosses the road in the sun.
 };
 
 Weather weather_named(std::string_view name) {
@@ -91,8 +96,27 @@ Weather weather_named(std::string_view name) {
     environment.visibility_m = 150.0;
   } else if (name == "tunnel") {
     weather.s_m = 3350.0;
+  } else if (name == "smoke") {
+    weather.lamps = false;
+    weather.smoking = true;
   }
   return weather;
+}
+
+/// 60 m long, aslant over the road from 60 m ahead on.
+std::vector<SmokePuff> plume_over(const RigidTransform& world_from_lane) {
+  Random random(4);
+  std::vector<SmokePuff> puffs(20'000);
+  for (std::uint32_t i = 0; i < puffs.size(); ++i) {
+    const double along = random.uniform(0.0, 60.0);
+    puffs[i].position_m = world_from_lane * Vec3(60.0 + 0.8 * along + random.uniform(-4.0, 4.0),
+                                                 0.6 * along - 20.0 + random.uniform(-4.0, 4.0),
+                                                 4.0 + 0.2 * along + random.uniform(-3.0, 3.0));
+    puffs[i].radius_m = 1.0f;
+    puffs[i].extinction_area_m2 = 0.1f;
+    puffs[i].seed = i;
+  }
+  return puffs;
 }
 
 /// The motorway in a weather, with traffic from where it is looked at on; without views.
@@ -100,6 +124,7 @@ FrameInput traffic_in(const Weather& weather) {
   const Motorway& world = motorway();
   FrameInput input;
   input.environment = weather.environment;
+  if (weather.smoking) input.smoke = plume_over(in_lane(-4, weather.s_m));
   for (int i = 0; i < 24; ++i) {
     DrawnParticipant car;
     car.prototype = static_cast<std::uint32_t>(i) % static_cast<std::uint32_t>(world.scene.prototypes.size());
@@ -113,6 +138,16 @@ FrameInput traffic_in(const Weather& weather) {
   }
   return input;
 }
+
+/// Map of the shade below the plume, from its puffs as they are merged.
+void smoke_shade_map(benchmark::State& state) {
+  const RigidTransform eye = in_lane(-4, 500.0);
+  const std::vector<SmokePuff> puffs = merged_puffs(plume_over(eye), eye.position_m);
+  const ShadowCascades sun = shadow_cascades(eye.position_m, sky_light(reference_day()).light_direction);
+  for (auto unused : state) benchmark::DoNotOptimize(smoke_shade(puffs, {}, sun));
+  state.counters["merged_puffs"] = static_cast<double>(puffs.size());
+}
+BENCHMARK(smoke_shade_map)->Unit(benchmark::kMicrosecond);
 
 void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height, std::string_view name,
                           bool timed = false, Antialiasing antialiasing = Antialiasing::automatic) {
@@ -208,12 +243,14 @@ BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_rain_at_dusk, 640, 420, "rain_at
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_night, 640, 420, "night")->Apply(thirty_frames_thrice);
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_snow, 640, 420, "snow")->Apply(thirty_frames_thrice);
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_fog, 640, 420, "fog")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_smoke, 640, 420, "smoke")->Apply(thirty_frames_thrice);
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_tunnel, 640, 420, "tunnel")->Apply(thirty_frames_thrice);
 
 void ten_frames(benchmark::internal::Benchmark* frames) { frames->Unit(benchmark::kMillisecond)->Iterations(10); }
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_by_passes_ms, 640, 420, "day", true)->Apply(ten_frames);
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_rain_at_dusk_by_passes_ms, 640, 420, "rain_at_dusk", true)
     ->Apply(ten_frames);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_smoke_by_passes_ms, 640, 420, "smoke", true)->Apply(ten_frames);
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_tunnel_by_passes_ms, 640, 420, "tunnel", true)->Apply(ten_frames);
 
 void on_a_card(benchmark::internal::Benchmark* frames) {

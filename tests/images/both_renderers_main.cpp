@@ -1,6 +1,6 @@
 /// Draws the motorway in one weather by both renderers, from one description of the instant:
 ///
-///     both_renderers noon|dusk|night|rain|snow|tunnel|frost|fire FOLDER SAMPLES     FOLDER/raster.png, FOLDER/traced.png
+///     both_renderers noon|dusk|night|rain|snow|tunnel|frost|fire|plume FOLDER SAMPLES     FOLDER/raster.png, FOLDER/traced.png
 
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "engine/core/random.hpp"
 #include "engine/effects/ice/glass.hpp"
 #include "engine/image/png.hpp"
 #include "engine/instant/scene_summary.hpp"
@@ -63,6 +64,23 @@ void burn(instant::FrameInput& input) {
   }
 }
 
+/// Smoke drifts over the road from the side of the sun, which throws its shade on it.
+void drift(instant::FrameInput& input) {
+  const RigidTransform& world_from_car = input.views.front().world_from_car;
+  Random random(6);
+  for (std::uint32_t i = 0; i < 2500; ++i) {
+    const double along = random.uniform();
+    instant::SmokePuff puff;
+    puff.position_m = world_from_car * Vec3(24.0 + 10.0 * along + random.uniform(-3.0, 3.0),
+                                            14.0 - 22.0 * along + random.uniform(-3.0, 3.0),
+                                            2.0 + 7.0 * along + random.uniform(-2.0, 2.0));
+    puff.radius_m = 1.2f;
+    puff.extinction_area_m2 = 0.3f;
+    puff.seed = i;
+    input.smoke.push_back(puff);
+  }
+}
+
 instant::FrameInput frame(const Motorway& motorway, std::string_view weather) {
   const bool night = weather == "night" || weather == "fire", rain = weather == "rain", tunnel = weather == "tunnel";
   instant::FrameInput input = motorway.frame({"", tunnel ? 3350.0 : 800.0, 0.0, night, rain});
@@ -77,6 +95,10 @@ instant::FrameInput frame(const Motorway& motorway, std::string_view weather) {
     input.environment.visibility_m = 4000.0;
   }
   if (weather == "fire") burn(input);
+  if (weather == "plume") {
+    drift(input);
+    input.environment.cloud_cover = 0.0;
+  }
   if (weather == "frost") input.glass.push_back(frosted_pane(input.views.front()));
   return input;
 }

@@ -1,11 +1,14 @@
 /// Smoke as it is drawn against smoke as it is computed: the attenuation of a bright wall behind it, read back in linear
 /// radiance from both renderers.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "engine/core/random.hpp"
 #include "engine/instant/scene_summary.hpp"
@@ -130,6 +133,80 @@ SmokePuff black_puff(const Vec3& from_eye_m, float deviation_m, float depth, std
   return puff;
 }
 
+/// Light of the ground before the eye without smoke and with it, high between the ground and the sun.
+struct Shade {
+  double without = 0.0, with = 0.0;  ///< Sums of the pixels' radiance.
+  double least_share = 1.0;          ///< Of a pixel's radiance without smoke.
+};
+
+enum class Sky : std::uint8_t { black, blue };
+
+void darken_sky(instant::Instant& instant) {
+  instant::SkyLight light = *instant.light;
+  light.sky_irradiance = light.ground_irradiance = glm::vec3(0.0f);
+  light.irradiance = light.street_irradiance = {};
+  light.table.radiance.assign(light.table.radiance.size(), glm::vec3(0.0f));
+  instant.light = std::make_shared<const instant::SkyLight>(light);
+}
+
+template <typename Draw>
+Shade shade_on_ground(Sky sky, float albedo, float depth, const Draw& draw) {
+  scene::SurfaceMaterial material;
+  material.base_color = glm::vec3(0.5f);
+  material.roughness = 1.0f;
+  // A wall that lies on its back.
+  const scene::ResolvedScene scene =
+      instant::lone_mesh(material, instant::wide_wall(), {Vec3(0.0), glm::angleAxis(0.5 * 3.14159265, Vec3(0, 1, 0))});
+  instant::FrameInput input = forward();
+  input.environment.cloud_cover = 0.0;
+  input.environment.sun_elevation_rad = 0.7;
+  instant::Instant instant = instant::describe(input, instant::summarise(scene));
+  instant.extinction_per_m = 0.0f;
+  if (sky == Sky::black) darken_sky(instant);
+  const Picture clear = draw(scene, instant);
+  Random random(9);
+  const Vec3 middle_m = Vec3(8.0, 0.0, 0.0) + 15.0 * Vec3(instant.light->light_direction);
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    SmokePuff puff = black_puff(Vec3(0.0), 0.8f, depth, i);
+    puff.position_m = middle_m + 2.0 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    puff.albedo = glm::vec3(albedo);
+    instant.smoke.push_back(puff);
+  }
+  const Picture smoky = draw(scene, instant);
+  Shade shade;
+  for (std::size_t n = smoke_width_px * (smoke_height_px / 2 + 6); n < clear.size(); ++n) {
+    shade.without += double(clear[n].g), shade.with += double(smoky[n].g);
+    shade.least_share = std::min(shade.least_share, double(smoky[n].g) / double(clear[n].g));
+  }
+  return shade;
+}
+
+/// Radiance of thick smoke by day, at its middle, from the front.
+template <typename Draw>
+double thick_smoke(double sun_azimuth_rad, float albedo, const Draw& draw) {
+  // Nothing but smoke and sky is in view.
+  const scene::ResolvedScene scene = instant::lone_mesh({}, instant::wide_wall(), {Vec3(0.0, 0.0, -9e4)});
+  instant::FrameInput input = forward();
+  input.environment.cloud_cover = 0.0;
+  input.environment.sun_elevation_rad = 0.7;
+  input.environment.sun_azimuth_rad = sun_azimuth_rad;
+  Random random(9);
+  for (std::uint32_t i = 0; i < 600; ++i) {
+    SmokePuff puff = black_puff(
+        Vec3(18.0, 0.0, 0.0) + 4.0 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)), 0.8f,
+        0.2f, i);
+    puff.albedo = glm::vec3(albedo);
+    input.smoke.push_back(puff);
+  }
+  instant::Instant instant = instant::describe(input, instant::summarise(scene));
+  instant.extinction_per_m = 0.0f;
+  const Picture picture = draw(scene, instant);
+  double sum = 0.0;
+  for (std::uint32_t y = 26; y < 38; ++y)
+    for (std::uint32_t x = 42; x < 54; ++x) sum += double(picture[std::size_t{y} * smoke_width_px + x].g) / 144.0;
+  return sum;
+}
+
 }  // namespace
 
 TEST_CASE("of one puff both renderers draw what is computed from far away to 1.2 radii before the eye") {
@@ -163,6 +240,31 @@ TEST_CASE("smoke in the beam of a headlight shines by as much in the rasteriser 
                trace = in_beam(false, 100.0f) - in_beam(false, 0.0f);
   CHECK(raster > 0.0);
   CHECK(raster == relative(trace, 0.15));
+}
+
+TEST_CASE("the ground below smoke loses as much of the sun in the rasteriser as in the ray tracer") {
+  for (const Sky sky : {Sky::black, Sky::blue})
+    for (const float depth : {0.01f, 0.05f}) {
+      const Shade raster = shade_on_ground(sky, 0.25f, depth, rastered),
+                  trace = shade_on_ground(sky, 0.25f, depth, traced);
+      CAPTURE(depth);
+      CHECK(trace.with < 0.85 * trace.without);
+      // The rasteriser has no shade of smoke in the light of the sky.
+      const double of_loss = sky == Sky::black ? 0.02 : 0.05;
+      CHECK(1.0 - raster.with / raster.without == relative(1.0 - trace.with / trace.without, of_loss));
+      CHECK(std::abs(raster.least_share - trace.least_share) < (sky == Sky::black ? 0.02 : 0.06));
+    }
+}
+
+TEST_CASE("thick smoke by day is as bright in the rasteriser as in the ray tracer within a quarter, from three sides") {
+  for (const double azimuth_rad : {0.0, 1.57, 3.14})
+    for (const float albedo : {0.25f, 0.8f}) {
+      const double raster = thick_smoke(azimuth_rad, albedo, rastered),
+                   trace = thick_smoke(azimuth_rad, albedo, traced);
+      CAPTURE(azimuth_rad);
+      CAPTURE(albedo);
+      CHECK(raster == relative(trace, 0.27));
+    }
 }
 
 }  // namespace septet

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,8 +34,10 @@ class Circles final : public server::TickSource {
 /// Screens on a simulated clock that acknowledge like the product's: each new tick, once they hold the scene.
 class LockstepRig {
  public:
-  explicit LockstepRig(std::size_t screens, net::NetworkFaults faults = {.latency_s = 0.0003})
-      : rig({.screens = screens, .faults = faults, .real_time = false}) {
+  explicit LockstepRig(std::size_t screens, net::NetworkFaults faults = {.latency_s = 0.0003},
+                       std::set<std::size_t> watchers = {})
+      : rig({.screens = screens, .faults = faults, .watching = watchers, .real_time = false}),
+        watching(std::move(watchers)) {
     rig.run_for(2.0);  // So long that the server knows how often each screen is heard.
   }
 
@@ -59,6 +62,7 @@ class LockstepRig {
   }
 
   SimulatedRig rig;
+  std::set<std::size_t> watching;  ///< Clients that are told ticks, and show nothing.
   std::map<std::size_t, std::vector<Tick>> shown;
   std::map<std::size_t, bool> is_drawing;  ///< It takes long.
   std::vector<std::string> messages;
@@ -70,6 +74,11 @@ class LockstepRig {
     if (!screen.link || screen.hung || is_drawing[i]) return;
     if (screen.link->finished()) return screen.link->report({});
     if (!screen.link->scene_arrived() || screen.link->history().empty()) return;
+    if (watching.contains(i)) {
+      for (const frame::HistoryTick& tick : screen.link->history().ticks())
+        if (shown[i].empty() || tick.snapshot.tick > shown[i].back()) shown[i].push_back(tick.snapshot.tick);
+      return;
+    }
     const Tick tick = screen.link->history().newest().snapshot.tick;
     if (!shown[i].empty() && shown[i].back() >= tick) return;
     if (!screen.link->has_scene_of(screen.link->history().newest())) return;
@@ -125,6 +134,31 @@ TEST_CASE("in lockstep a world that changes at every tick is shown whole by scre
   CHECK(different == 0);
 }
 
+TEST_CASE(
+    "in lockstep a screen that comes up in a world that changes at every tick shows none with what a later one has") {
+  LockstepRig lockstep(3, {.loss = 0.05, .latency_s = 0.002});
+  std::map<Tick, std::uint64_t> worlds;
+  int first_pictures = 0, different = 0;
+  bool is_first = false;
+  lockstep.looks = [&](std::size_t i, Tick tick) {
+    different += scene::content_hash(lockstep.rig.screen(i).link->scene()) != worlds.at(tick);
+    if (i == 1 && std::exchange(is_first, false)) ++first_pictures;
+  };
+  lockstep.serve(
+      20.0,
+      [&] {
+        // The one before has shown its first picture, and some more.
+        if (lockstep.shown[1].size() < 3) return;
+        is_first = true;
+        lockstep.shown[1].clear();
+        lockstep.rig.stop_screen(1);
+        lockstep.rig.start_screen(1);
+      },
+      std::make_unique<Builder>(lockstep.rig, worlds));
+  CHECK(first_pictures >= 3);
+  CHECK(different == 0);
+}
+
 TEST_CASE("in lockstep all screens show every drawn tick") {
   LockstepRig lockstep(3);
   lockstep.serve(2.0, [] {});
@@ -133,6 +167,19 @@ TEST_CASE("in lockstep all screens show every drawn tick") {
     for (std::size_t n = 0; n < lockstep.shown[i].size(); ++n)
       CHECK(lockstep.shown[i][n] == draw_every_ticks * (n + 1));
   }
+}
+
+TEST_CASE(
+    "in lockstep who watches is told every tick, the last one before a pause too, and screens draw no more for it") {
+  LockstepRig lockstep(3, {.latency_s = 0.0003}, {2});
+  const auto served = lockstep.serve(2.0 + 3.0 / 120.0, [] {});
+  REQUIRE(lockstep.shown[0].size() == 240 / draw_every_ticks);
+  CHECK(lockstep.shown[0] == lockstep.shown[1]);
+  lockstep.rig.run_for(0.1);
+  for (const frame::HistoryTick& tick : lockstep.rig.screen(2).link->history().ticks())
+    if (tick.snapshot.tick > lockstep.shown[2].back()) lockstep.shown[2].push_back(tick.snapshot.tick);
+  REQUIRE(lockstep.shown[2].size() == served.ticks);
+  for (std::size_t n = 0; n < served.ticks; ++n) CHECK(lockstep.shown[2][n] == n + 1);
 }
 
 TEST_CASE("in lockstep a screen that comes up is waited for and misses no tick after it has connected") {

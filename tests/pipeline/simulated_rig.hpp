@@ -28,6 +28,7 @@ struct SimulatedRigOptions {
   double least_playout_delay_s = 2.0 / 120.0;
   std::function<void(scene::SceneBuilder&)> world{};  ///< Content of the scene; some posts if empty.
   std::set<std::size_t> deaf{};                       ///< Screens that the group's datagrams do not reach.
+  std::set<std::size_t> watching{};                   ///< Clients that are no screens of the rig, and read all ticks.
   /// Interval at which a screen reads its sockets: at every step, or once a frame as a drawing one.
   double screen_pump_s = 0.0;
   bool real_time = true;  ///< True: a tick is published whenever one is due; false: the host's driver publishes.
@@ -90,8 +91,11 @@ class SimulatedRig {
     server::ScreenHostOptions options{.identity = server_identity_,
                                       .session = net::random_session_id(),
                                       .least_playout_delay_s = options_.least_playout_delay_s};
-    for (const auto& screen : screens_) {
-      options.allowed.push_back({screen.identity.public_key(), screen.name});
+    for (std::size_t i = 0; i < screens_.size(); ++i) {
+      const Screen& screen = screens_[i];
+      const bool watches = options_.watching.contains(i);
+      options.allowed.push_back({screen.identity.public_key(), screen.name, {.may_look = watches}});
+      if (watches) continue;
       options.screens.push_back(screen.name);
       options.drivers.insert(screen.name);
     }

@@ -101,13 +101,22 @@ TEST_CASE("an editor's queue has a bound, which is its own, and has room again w
   EditTurns turns;
   turns.begin_tick(1);
   std::size_t taken = 0;
-  for (; taken < 100'000 && turns.has_room_for(asked("lab", taken, 10'000)); ++taken)
+  for (; taken < 100'000 && !turns.refusal(asked("lab", taken, 10'000)); ++taken)
     turns.add(asked("lab", taken, 10'000));
   CHECK(taken > 5);
   CHECK(taken * 10'000 * sizeof(scene::Command) <= most_edit_bytes_waiting);
-  CHECK(turns.has_room_for(asked("desk", 1, 10'000)));
+  CHECK_FALSE(turns.refusal(asked("desk", 1, 10'000)));
   CHECK(numbers_at(turns, 1).size() == 1);
-  CHECK(turns.has_room_for(asked("lab", taken, 10'000)));
+  CHECK_FALSE(turns.refusal(asked("lab", taken, 10'000)));
+}
+
+TEST_CASE("a batch may name a tick of the longest lifetime from now, and no later one") {
+  EditTurns turns;
+  turns.begin_tick(50);
+  CHECK_FALSE(turns.refusal(asked("lab", 1, 1, 50 + most_ticks_ahead)));
+  const auto why_not = turns.refusal(asked("lab", 1, 1, 51 + most_ticks_ahead));
+  REQUIRE(why_not);
+  CHECK(why_not->starts_with("tick 120000051 is more than 120000000 ticks ahead of 50"));
 }
 
 TEST_CASE("fifty moves a tick, and a batch of as much content as there can be, wait for nothing") {

@@ -267,6 +267,25 @@ TEST_CASE("an editor does what the words of its key say and a node belongs to wh
   CHECK(makers.empty());
 }
 
+TEST_CASE("a generated thing's parts may be seen once more by a key with prefixes, and what stands by itself may not") {
+  scene::Store store;
+  scene::SceneBuilder build(store);
+  const NodeId model = build.add_object("model/van", {}), body = build.add_object("van/body", {}),
+               tree = build.add_object("tree/1", {});
+  build.apply(scene::LinkSet{model, 0, {"child", body, 0}});
+  NodeMakers makers;
+  const Editor lab{"lab", {{"stimuli/"}, net::all_edit_kinds}, 1000};
+  const auto refused = [&](NodeId child) {
+    const std::vector<Command> batch{scene::NodeCreate{1000, scene::NodeType::object},
+                                     scene::NodeNameSet{1000, "stimuli/van"},
+                                     scene::LinkSet{1000, 0, {"child", child, 0}}, scene::NodeDestroy{1000}};
+    return pass_gate(store, batch, lab, makers, [](const Command&) {}).has_value();
+  };
+  CHECK_FALSE(refused(body));
+  CHECK(refused(tree));
+  CHECK(refused(model));
+}
+
 TEST_CASE("an editor's own node that is gone already need not be destroyed, and what is left keeps its place") {
   scene::Store store;
   scene::SceneBuilder build(store);

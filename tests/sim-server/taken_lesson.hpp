@@ -18,6 +18,30 @@
 
 namespace septet::server {
 
+/// What the log was told of a drive by a simulated driver.
+struct TakenDrive {
+  LoadedDrive loaded;
+  std::vector<logging::Sample> samples;
+  std::vector<logging::Event> events;
+};
+
+inline TakenDrive take_drive(const std::string& scenario, const std::string& driver, std::uint64_t seed,
+                             double seconds) {
+  TakenDrive taken{shipped_drive(scenario, "seven-screens", seed), {}, {}};
+  const auto drive = simulated_drive(taken.loaded, driver, seed);
+  const TemporaryFolder folder;
+  auto log = SessionLog::create(taken.loaded, {.out = folder.path(), .log_samples_only = true, .no_screens = true});
+  REQUIRE(log.has_value());
+  log->watch([&](const logging::Sample& sample) { taken.samples.push_back(sample); },
+             [&](const logging::Event& event) { taken.events.push_back(event); });
+  drive->log_to(*log);
+  while (drive->newest().simulated_time_s < seconds) {
+    const auto next = drive->next(std::nullopt);
+    if (!next || !*next) break;
+  }
+  return taken;
+}
+
 struct TakenLesson {
   logging::Lesson lesson;
   logging::LessonMarks marks;
@@ -25,23 +49,10 @@ struct TakenLesson {
 
 inline TakenLesson take_lesson(const std::string& scenario, const std::string& driver, std::uint64_t seed,
                                double seconds) {
-  const LoadedDrive loaded = shipped_drive(scenario, "seven-screens", seed);
-  const auto drive = simulated_drive(loaded, driver, seed);
-  std::vector<logging::Sample> samples;
-  std::vector<logging::Event> events;
-  const TemporaryFolder folder;
-  auto log = SessionLog::create(loaded, {.out = folder.path(), .log_samples_only = true, .no_screens = true});
-  REQUIRE(log.has_value());
-  log->watch([&](const logging::Sample& sample) { samples.push_back(sample); },
-             [&](const logging::Event& event) { events.push_back(event); });
-  drive->log_to(*log);
-  while (drive->newest().simulated_time_s < seconds) {
-    const auto next = drive->next(std::nullopt);
-    if (!next || !*next) break;
-  }
-  const auto lesson = logging::read_lesson(loaded.source(logging::lesson_role), scenario);
+  const TakenDrive taken = take_drive(scenario, driver, seed, seconds);
+  const auto lesson = logging::read_lesson(taken.loaded.source(logging::lesson_role), scenario);
   REQUIRE(lesson.has_value());
-  return {*lesson, logging::mark_lesson(*lesson, samples, events)};
+  return {*lesson, logging::mark_lesson(*lesson, taken.samples, taken.events)};
 }
 
 }  // namespace septet::server

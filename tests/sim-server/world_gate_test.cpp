@@ -74,6 +74,24 @@ TEST_CASE("who sets a fragment that is a constant here is told once and not refu
   CHECK(gate.world->take_messages().empty());
 }
 
+TEST_CASE("a batch whose sizes let shapes grow by more than a tick has time for is refused with both figures") {
+  Gate gate;
+  const auto sized = [&](std::uint32_t vertices, std::uint32_t polygons) {
+    return gate.make(gate.lab, {scene::NodeCreate{labs_ids, scene::NodeType::geometry},
+                                scene::GeometrySizeSet{labs_ids, vertices, polygons}});
+  };
+  CHECK(sized(4'000'000, 4'000'000).find("4000000 vertices and 4000000 polygons, of each 1048576") !=
+        std::string::npos);
+  CHECK(sized(10, 300'000).find("grow by 4800120 bytes") != std::string::npos);
+  CHECK_FALSE(gate.opened.store.find(labs_ids));
+  CHECK(sized(10, 250'000) == "");
+  CHECK(gate.make(gate.lab, {scene::GeometrySizeSet{labs_ids, 10, 500'000}}) == "");
+  // What an undo brings back was there.
+  CHECK(gate.make(gate.lab, {scene::NodeDestroy{labs_ids}}) == "");
+  CHECK(gate.undo(gate.lab) == "");
+  CHECK(gate.opened.store.find(labs_ids));
+}
+
 TEST_CASE("an editor's newest batch is undone, then the one before it, and then there is nothing to be undone") {
   Gate gate;
   const scene::Store before = gate.opened.store;
@@ -112,6 +130,17 @@ TEST_CASE("what somebody else has changed since, or what an editor may no longer
   // A removal that was named ahead is not the newest thing that an editor did.
   CHECK(gate.make(gate.lab, {scene::HideSet{gate.tree, false}}, false) == "");
   CHECK(gate.undo(gate.lab) == "there is nothing of lab's to be undone");
+}
+
+TEST_CASE("a refusal about a node that is gone has the name that it had") {
+  Gate gate;
+  CHECK(gate.make(gate.lab, {scene::NodeCreate{labs_ids, scene::NodeType::object},
+                             scene::NodeNameSet{labs_ids, "stimuli/flash"}}) == "");
+  CHECK(gate.make(gate.lab, {scene::NodeDestroy{labs_ids}}, false) == "");
+  CHECK(gate.undo(gate.lab) == "stimuli/flash is gone: it was removed or replaced");
+  const auto refused = gate.world->make(gate.lab, {scene::TransformSet{labs_ids, {}}}, 5);
+  REQUIRE(refused);
+  CHECK(refused->failures.front().node == "stimuli/flash");
 }
 
 TEST_CASE("of many batches the newest hundred are undone") {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/printable.hpp"
+#include "engine/editor/shown_pose.hpp"
 #include "engine/world/vehicle_model.hpp"
 #include "sim-server/drive/told_on_page.hpp"
 
@@ -80,27 +81,27 @@ void EditOutput::refused(std::uint64_t request, const FailedLines& failed) const
   out_ << std::flush;
 }
 
-void EditOutput::nodes(std::uint64_t request, const std::vector<scene::NodeId>& found,
-                       const scene::TextNames& names) const {
+void EditOutput::nodes(std::uint64_t request, const std::vector<scene::NodeId>& found, const scene::TextNames& names,
+                       const Snapshot& now) const {
   Json list = Json::array();
   for (const scene::NodeId id : found) {
     const scene::Node* node = names.store.find(id);
     const auto* object = node ? std::get_if<scene::ObjectData>(&node->data) : nullptr;
+    const RigidTransform pose = object ? editor::shown_pose(*node, now) : RigidTransform{};
     const std::string word = scene::word_of(names, id);
     if (!json_) {
       out_ << word;
       if (object)
-        out_ << fmt::format("  at {:.2f} {:.2f} {:.2f}{}", object->transform.position_m.x,
-                            object->transform.position_m.y, object->transform.position_m.z,
+        out_ << fmt::format("  at {:.2f} {:.2f} {:.2f}{}", pose.position_m.x, pose.position_m.y, pose.position_m.z,
                             object->hidden ? ", hidden" : "");
       out_ << '\n';
       continue;
     }
-    Json entry{{"node", word}, {"name", node ? node->name : ""}};
+    Json entry{{"node", word}, {"id", id}, {"name", node ? node->name : ""}};
     if (object) {
       const glm::vec3 scale = object->transform.scale;
-      entry["position"] = of(object->transform.position_m);
-      entry["wxyz"] = of(object->transform.rotation);
+      entry["position"] = of(pose.position_m);
+      entry["wxyz"] = of(pose.orientation);
       entry["scale"] = {scale.x, scale.y, scale.z};
       entry["visible"] = !object->hidden;
     }

@@ -37,7 +37,9 @@ class EditOutput {
   /// `request`: number of the request, from 1.
   void done(std::uint64_t request, Tick tick, const std::vector<std::string>& messages) const;
   void refused(std::uint64_t request, const FailedLines& failed) const;
-  void nodes(std::uint64_t request, const std::vector<scene::NodeId>& found, const scene::TextNames& names) const;
+  /// Places are those at `now`.
+  void nodes(std::uint64_t request, const std::vector<scene::NodeId>& found, const scene::TextNames& names,
+             const Snapshot& now) const;
   void lines(std::uint64_t request, const std::vector<std::string>& lines) const;
   /// `events`: those told since the last tick; `dropped`: those that were lost on the way.
   void tick(const Snapshot& snapshot, std::span<const control::DriveEvent> events, std::uint64_t dropped) const;

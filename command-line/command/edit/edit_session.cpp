@@ -66,6 +66,13 @@ bool EditSession::reads_scene(std::string_view line) {
   return std::ranges::find(verbs, first_word(line)) != verbs.end();
 }
 
+std::size_t EditSession::ahead_of_now() const {
+  const auto& ticks = client_.link().history();
+  const Tick next = ticks.empty() ? 0 : ticks.newest().snapshot.tick + 1;
+  return static_cast<std::size_t>(
+      std::ranges::count_if(waiting_, [&](const auto& entry) { return entry.second.batch.tick > next; }));
+}
+
 void EditSession::refuse(std::uint64_t request, const FailedLines& failed) {
   ++refusals_;
   output_.refused(request, failed);
@@ -87,6 +94,13 @@ void EditSession::take(const std::string& line) {
   else
     batch.lines.push_back(line), batch.fail({}, describe(words.error()));
   if (!batch_) send(std::move(one));
+}
+
+void EditSession::end() {
+  if (!batch_) return;
+  forget_created(*batch_);
+  batch_.reset();
+  refuse(++requests_, "begin", "the lines end without its `commit`: nothing of the batch was done");
 }
 
 void EditSession::add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words) {
@@ -290,11 +304,20 @@ bool EditSession::query(const std::string& line, const std::vector<scene::TextWo
     output_.done(++requests_, 0, {});
   } else if (verb == "find") {
     const std::uint64_t request = ++requests_;
-    const auto found = editor::found_nodes(words, client_.store());
-    if (found)
-      output_.nodes(request, *found, names());
-    else
+    const Snapshot at = now();
+    auto found = editor::found_nodes(words, client_.store(), at);
+    if (!found) {
       refuse(request, line, describe(found.error()));
+      return true;
+    }
+    const bool has_more = found->size() > editor::most_nodes_found;
+    if (has_more) found->resize(editor::most_nodes_found);
+    output_.nodes(request, *found, names(), at);
+    if (has_more)
+      output_.message(
+          fmt::format("more than {} nodes are of this kind, and the others are not told: write a longer "
+                      "name, or near X Y METRES",
+                      editor::most_nodes_found));
   } else if (verb == "read") {
     read(++requests_, words);
   } else if (verb == "save") {

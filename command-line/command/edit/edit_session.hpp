@@ -17,6 +17,7 @@
 #include "engine/editor/edit_verbs.hpp"
 #include "engine/replication/message.hpp"
 #include "engine/scene/constants_told.hpp"
+#include "engine/world/snapshot.hpp"
 
 namespace septet::server {
 
@@ -30,10 +31,17 @@ class EditSession {
   /// True if the line reads the scene, so that everything before it must have arrived.
   static bool reads_scene(std::string_view line);
   /// True if no answer is owed and the mirror is whole.
-  bool is_settled() const { return answers_owed() == 0 && client_.is_complete(); }
+  bool is_settled() const { return answers_owed() + ahead_of_now() == 0 && client_.is_complete(); }
+  /// The same but for batches that wait for a tick which is still ahead: nothing waits for those.
+  bool is_settled_for_now() const { return answers_owed() == 0 && client_.is_complete(); }
   bool is_in_batch() const { return batch_.has_value(); }
-  std::size_t answers_owed() const { return waiting_.size() + later_.size() + operating_.size(); }
+  /// Without those of batches whose tick is ahead.
+  std::size_t answers_owed() const { return waiting_.size() + later_.size() + operating_.size() - ahead_of_now(); }
+  /// Batches that the server has, and that wait for a tick which is still ahead.
+  std::size_t ahead_of_now() const;
   void take(const std::string& line);
+  /// No more lines come: a batch without its `commit` is refused.
+  void end();
   /// Says what the server has answered, and the ticks that have come.
   void hear();
   /// Sends what differs in files that are watched and were saved.
@@ -72,6 +80,11 @@ class EditSession {
     std::vector<scene::Command> removal;
   };
 
+  /// The newest tick, with everybody's place; before the first one, nobody.
+  Snapshot now() const {
+    const auto& ticks = client_.link().history();
+    return ticks.empty() ? Snapshot{} : ticks.newest().snapshot;
+  }
   scene::TextNames names() const { return {client_.store(), names_.own_ids, nullptr, &names_.fresh}; }
   void add(Batch& batch, const std::string& line, const std::vector<scene::TextWord>& words);
   void send(Batch batch);

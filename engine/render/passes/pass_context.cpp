@@ -107,7 +107,7 @@ void push_view(PassContext& context, const ViewBindings& bindings) {
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-  VkWriteDescriptorSet writes[15] = {
+  VkWriteDescriptorSet writes[16] = {
       write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
       write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
@@ -122,12 +122,18 @@ void push_view(PassContext& context, const ViewBindings& bindings) {
       write(vulkan::binding_emission_map, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_properties_map, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_normal_map, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-      write(vulkan::binding_light_clusters, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
+      write(vulkan::binding_light_clusters, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+      write(vulkan::binding_smoke_shade, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)};
   writes[0].pBufferInfo = &uniforms;
   for (int i = 0; i < 13; ++i) writes[1 + i].pImageInfo = &images[i];
-  const FrameData& lights = bindings.light_clusters.buffer ? bindings.light_clusters : bindings.uniforms;
-  const VkDescriptorBufferInfo clusters{lights.buffer, lights.offset, lights.size};
+  const auto or_uniforms = [&](const FrameData& data) {
+    const FrameData& bound = data.buffer ? data : bindings.uniforms;
+    return VkDescriptorBufferInfo{bound.buffer, bound.offset, bound.size};
+  };
+  const VkDescriptorBufferInfo clusters = or_uniforms(bindings.light_clusters),
+                               smoke_shade = or_uniforms(bindings.smoke_shade);
   writes[14].pBufferInfo = &clusters;
+  writes[15].pBufferInfo = &smoke_shade;
   push(context, writes);
 }
 

@@ -87,7 +87,7 @@ struct ViewBindings {
   FrameData uniforms;
   VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE,
               lamp_field = VK_NULL_HANDLE;
-  FrameData light_clusters;  ///< Empty: the uniforms are bound in its place, unread.
+  FrameData light_clusters, smoke_shade;  ///< Empty: the uniforms are bound in their place, unread.
   /// Null: the noise is bound in their place, unread.
   VkImageView road_mirror = VK_NULL_HANDLE, road_mirror_spread = VK_NULL_HANDLE, road_mirror_depth = VK_NULL_HANDLE,
               ripples = VK_NULL_HANDLE;

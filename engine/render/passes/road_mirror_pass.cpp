@@ -81,8 +81,9 @@ void destroy_road_mirror(RoadMirrorPass& pass, const vulkan::Device& device, vul
 }
 
 PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& scene, const Instant& instant,
-                                       const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
-                                       const LampField& lamps, std::uint32_t width, std::uint32_t height) {
+                                       const ShadowCascades& shadows, const PreparedSmokeShade& shade,
+                                       const DynamicSurfaces& dynamic, const LampField& lamps, std::uint32_t width,
+                                       std::uint32_t height) {
   const FrameView& view = instant.views.front();
   const Vec3 eye_m = world_eye(view);
   const ViewVolume volume = view_volume(view);
@@ -108,10 +109,12 @@ PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& 
         return material < scene.materials.size() && !scene.materials[material].wettable ? material : no_group;
       },
       mirrored_detail);
-  const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, {false, width, height});
+  ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, {false, width, height});
+  set_smoke_shade(uniforms, shade.shade, eye_m);
+  prepared.smoke_shade = shade.moments;
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.lit_by_lamps = lamps.shine(instant.light->street_lamps);
-  prepared.uniforms = store(context, std::span(&uniforms, 1));
+  prepared.uniforms = store(context, std::span<const ViewUniforms>(&uniforms, 1));
   prepared.light_clusters = store_light_clusters(context, eye_m, instant.headlights);
   return prepared;
 }
@@ -130,6 +133,7 @@ void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceSc
   ViewBindings own = bindings;
   own.uniforms = prepared.uniforms;
   own.light_clusters = prepared.light_clusters;
+  own.smoke_shade = prepared.smoke_shade;
   own.road_mirror = VK_NULL_HANDLE;
   push_view(mirror, own);
   bind_instances(mirror, prepared.draws.records);

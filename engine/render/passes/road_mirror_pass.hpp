@@ -10,6 +10,7 @@
 
 #include "engine/instant/instant.hpp"
 #include "engine/render/passes/lamp_field.hpp"
+#include "engine/render/passes/smoke_shade.hpp"
 #include "engine/render/passes/surface_pass.hpp"
 #include "engine/render/passes/view_uniforms.hpp"
 
@@ -26,7 +27,7 @@ struct RoadMirrorPass {
 /// Draws and uniforms of a frame's mirror image.
 struct PreparedRoadMirror {
   SurfaceDraws draws;
-  FrameData uniforms, light_clusters;
+  FrameData uniforms, light_clusters, smoke_shade;
   bool lit_by_headlights = false, lit_by_lamps = false;
 };
 
@@ -41,8 +42,9 @@ void destroy_road_mirror(RoadMirrorPass& pass, const vulkan::Device& device, vul
 
 /// Prepares the mirror image of the first view.
 PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& scene, const Instant& instant,
-                                       const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
-                                       const LampField& lamps, std::uint32_t width, std::uint32_t height);
+                                       const ShadowCascades& shadows, const PreparedSmokeShade& shade,
+                                       const DynamicSurfaces& dynamic, const LampField& lamps, std::uint32_t width,
+                                       std::uint32_t height);
 void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceScene& scene,
                       const PreparedRoadMirror& prepared, const FrameView& view, const ViewBindings& bindings,
                       const FrameData& soot, const SurfaceLight& light);

@@ -8,7 +8,7 @@
 namespace septet::render::shaders {
 
 /// Specialization constant of shaders/surface.frag, as are two_sided_constant, in_street_constant, maps_constant,
-/// square_roots_constant and second_uv_constant.
+/// square_roots_constant, second_uv_constant and smoke_shade_constant.
 inline constexpr std::size_t clustered_headlights_constant = 14;
 /// Specialization constant of shaders/sunlit.glsl, as is soft_shadows_constant.
 inline constexpr std::size_t unshaded_constant = 13;
@@ -18,6 +18,7 @@ inline constexpr std::size_t maps_constant = 18;
 inline constexpr std::size_t square_roots_constant = 19;
 inline constexpr std::size_t second_uv_constant = 20;
 inline constexpr std::size_t soft_shadows_constant = 15;
+inline constexpr std::size_t smoke_shade_constant = 21;
 
 std::span<const std::uint32_t> surface_vert();
 std::span<const std::uint32_t> surface_frag();

@@ -54,10 +54,12 @@ class Coverage {
   std::array<float, columns * rows> depth_{};
 };
 
-glm::vec3 scattered(const SmokePuff& puff, float share_of_sky, const SkyLight& light) {
-  const glm::vec3 around = 0.5f * (light.sky_irradiance + light.ground_irradiance) + 0.35f * light.light_irradiance;
+glm::vec3 scattered(const SmokePuff& puff, float share_of_sky, const SkyLight& light, const LightWithin& within) {
+  const glm::vec3 around = 0.5f * within.around * (light.sky_irradiance + light.ground_irradiance);
   const glm::vec3 irradiance = around * share_of_sky + light::roofed_irradiance * (1.0f - share_of_sky);
-  return puff.albedo * irradiance / std::numbers::pi_v<float> + instant::flame_radiance * (puff.glow * puff.glow);
+  return puff.albedo * irradiance / std::numbers::pi_v<float> +
+         light::puff_scatters(puff.albedo, light.light_irradiance * (share_of_sky * within.sun)) +
+         instant::flame_radiance * (puff.glow * puff.glow);
 }
 
 }  // namespace
@@ -119,9 +121,18 @@ std::vector<SmokePuff> merged_puffs(std::span<const SmokePuff> puffs, const Vec3
 }
 
 DrawnSmoke drawn_smoke(std::span<const SmokePuff> puffs, std::span<const Headlight> headlights, const Vec3& eye_m) {
-  DrawnSmoke drawn{merged_puffs(puffs, eye_m), {}};
+  DrawnSmoke drawn{merged_puffs(puffs, eye_m), {}, {}};
   drawn.beams = light_of_beams(drawn.puffs, headlights, eye_m);
   return drawn;
+}
+
+void shade_smoke(DrawnSmoke& smoke, const SmokeShade& shade) {
+  smoke.within.clear();
+  for (const SmokePuff& puff : smoke.puffs) {
+    const DepthsInSmoke depths = depths_in(shade, puff.position_m);
+    smoke.within.push_back({light::sun_within_smoke(depths.to_light, depth_through_middle(puff), puff.albedo.g),
+                            light::around_within_smoke(depths.to_light + depths.away, puff.albedo.g)});
+  }
 }
 
 float transmittance(std::span<const SmokePuff> puffs, const Vec3& eye_m, const Vec3& point_m) {
@@ -174,7 +185,8 @@ std::vector<PuffRecord> puff_records(const DrawnSmoke& smoke, const DeviceScene&
                         static_cast<float>(2.0 * radius / (ahead * high)), depth))
         continue;
     }
-    const glm::vec3 radiance = scattered(puff, share_of_sky(scene.summary, puff.position_m), light) +
+    const glm::vec3 radiance = scattered(puff, share_of_sky(scene.summary, puff.position_m), light,
+                                         smoke.within.empty() ? LightWithin{} : smoke.within[p.puff]) +
                                light::puff_scatters(puff.albedo, smoke.beams[p.puff]);
     records.push_back({glm::vec4(p.at, puff.radius_m), glm::vec4(radiance, depth),
                        glm::vec4(static_cast<float>(puff.seed % 1024u) / 1024.0f)});

@@ -13,6 +13,7 @@
 #include "engine/render/passes/device_scene.hpp"
 #include "engine/render/passes/pass_context.hpp"
 #include "engine/render/passes/smoke_beams.hpp"
+#include "engine/render/passes/smoke_shade.hpp"
 
 namespace septet::render {
 
@@ -29,12 +30,21 @@ void destroy_smoke_pass(SmokePass& pass, const vulkan::Device& device);
 /// Puffs merged for an eye, as above. World frame.
 std::vector<SmokePuff> merged_puffs(std::span<const SmokePuff> puffs, const Vec3& eye_m);
 
+/// Shares of the light of sun or moon and of that from around which other smoke leaves a puff.
+struct LightWithin {
+  float sun = 1.0f, around = 1.0f;
+};
+
 /// Merged puffs of an eye, and the light of beams on each.
 struct DrawnSmoke {
   std::vector<SmokePuff> puffs;
   std::vector<glm::vec3> beams;
+  std::vector<LightWithin> within;  ///< One a puff, or empty: nothing is lost.
 };
 DrawnSmoke drawn_smoke(std::span<const SmokePuff> puffs, std::span<const Headlight> headlights, const Vec3& eye_m);
+
+/// Light within the smoke, by its shade.
+void shade_smoke(DrawnSmoke& smoke, const SmokeShade& shade);
 
 /// Share of the light that the puffs transmit from a point to the eye.
 float transmittance(std::span<const SmokePuff> puffs, const Vec3& eye_m, const Vec3& point_m);

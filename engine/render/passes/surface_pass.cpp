@@ -12,7 +12,7 @@ struct Variant {
   std::uint32_t textured;  ///< See shaders/surface.frag.
   std::uint32_t lamps;     ///< See shaders/surface.frag.
   std::uint32_t glossy;    ///< See shaders/surface.frag.
-  bool unshaded, snowy, sooty, road, mirror, fading, retroreflective, moving, two_sided, in_street;
+  bool unshaded, snowy, sooty, road, mirror, fading, retroreflective, moving, two_sided, in_street, smoke_shaded;
   SurfaceKind kind;
   std::uint32_t maps, square_roots, second_uv;  ///< Of its material.
   std::uint32_t key() const {
@@ -20,7 +20,8 @@ struct Variant {
            std::uint32_t{sooty} << 8 | static_cast<std::uint32_t>(kind) << 9 | std::uint32_t{road} << 11 |
            std::uint32_t{mirror} << 12 | std::uint32_t{fading} << 13 | std::uint32_t{retroreflective} << 14 |
            std::uint32_t{moving} << 15 | std::uint32_t{unshaded} << 16 | std::uint32_t{two_sided} << 17 |
-           std::uint32_t{in_street} << 19 | maps << 20 | square_roots << 23 | second_uv << 27;
+           std::uint32_t{in_street} << 19 | maps << 20 | square_roots << 23 | second_uv << 27 |
+           std::uint32_t{smoke_shaded} << 31;
   }
 };
 
@@ -66,6 +67,7 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.constants[shaders::unshaded_constant] = variant.unshaded;
   description.constants[shaders::two_sided_constant] = variant.two_sided;
   description.constants[shaders::in_street_constant] = variant.in_street;
+  description.constants[shaders::smoke_shade_constant] = variant.smoke_shaded;
   description.constants[shaders::maps_constant] = variant.maps;
   description.constants[shaders::square_roots_constant] = variant.square_roots;
   description.constants[shaders::second_uv_constant] = variant.second_uv;
@@ -105,7 +107,7 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
         pipeline_of(pass, context,
                     {texturing, light.lamps(), glossy, light.unshaded, light.snowy, light.sooty, material.wettable,
                      light.mirror_of_road, draw.fading, retroreflective, moving, material.two_sided, material.in_street,
-                     kind, material.map_bits, material.square_root_bits, material.second_uv_bits});
+                     light.smoke_shaded, kind, material.map_bits, material.square_root_bits, material.second_uv_bits});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (const bool culled = kind == SurfaceKind::opaque && !material.two_sided; culled != culls)

@@ -25,6 +25,7 @@ struct SurfaceLight {
   bool sooty = false;           ///< FrameInput::soot is bound.
   bool main_beams = false;      ///< Main beam of some headlights is on.
   bool beacons = false;         ///< Light from beacons.
+  bool smoke_shaded = false;    ///< Smoke lies before the sun or moon.
   bool mirror_of_road = false;  ///< Drawn for a wet road's mirror image, with an alpha of its own.
 
   /// Bits of `lamps` in shaders/surface.frag.

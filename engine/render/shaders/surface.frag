@@ -3,6 +3,7 @@
 #include "view.glsl"
 #include "material.glsl"
 #include "sunlit.glsl"
+#include "smoke_shade.glsl"
 #include "lamplight.glsl"
 #include "wet_road.glsl"
 #include "fade.glsl"
@@ -42,6 +43,7 @@ layout(constant_id = 18) const uint maps = 0;
 layout(constant_id = 19) const uint square_roots = 1;
 // Maps that lie by the second coordinates, by the same bits as `maps`.
 layout(constant_id = 20) const uint by_second_uv = 0;
+layout(constant_id = 21) const uint in_smoke_shade = 0;  // Smoke lies before the sun or moon.
 layout(set = 0, binding = 21) uniform sampler2D emission_map;
 layout(set = 0, binding = 22) uniform sampler2D properties_map;
 layout(set = 0, binding = 23) uniform sampler2D normal_map;
@@ -229,6 +231,7 @@ void main() {
   float facing = dot(n, to_light);
   float lit = share_of_sky;
   lit *= sunlit(relative, n, abs(facing));
+  if (in_smoke_shade != 0) lit *= left_by_smoke(relative);
   float diffuse = max(facing, 0.0);
   if (cut != 0) diffuse = 0.75 * diffuse + 0.25 * abs(facing) + 0.1;  // Leaves let light through.
   vec3 sunlight = view.light_irradiance.rgb * lit;

@@ -45,7 +45,7 @@ void create_pipeline_layout(PipelineLayout& layout, const Device& device) {
   std::array<VkDescriptorSetLayoutBinding, binding_count> bindings{};
   for (std::uint32_t i = 0; i < binding_count; ++i) {
     bindings[i].binding = i;
-    const bool stored = i == binding_records || i == binding_light_clusters;
+    const bool stored = i == binding_records || i == binding_light_clusters || i == binding_smoke_shade;
     bindings[i].descriptorType = i == binding_view ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
                                  : stored          ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
                                                    : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;

@@ -41,7 +41,8 @@ enum Binding : std::uint32_t {
   binding_emission_map = 21,
   binding_properties_map = 22,
   binding_normal_map = 23,
-  binding_count = 24,
+  binding_smoke_shade = 24,  ///< Storage: moments of smoke along the light (passes/smoke_shade.hpp).
+  binding_count = 25,
 };
 
 inline constexpr std::uint32_t push_constant_bytes = 128;
@@ -74,7 +75,7 @@ struct PipelineDescription {
   bool marks = false;  ///< Alpha is stored, too: blended by itself, whatever the blending of the colours.
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
-  std::array<std::uint32_t, 21> constants{};  ///< Specialization constants 0 to 20 of both stages.
+  std::array<std::uint32_t, 22> constants{};  ///< Specialization constants 0 to 21 of both stages.
 };
 
 /// Creates a pipeline. Viewport, scissor, cull mode and front face are dynamic.

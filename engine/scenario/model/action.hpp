@@ -14,6 +14,7 @@
 #include "engine/scenario/model/trajectory.hpp"
 #include "engine/world/call.hpp"
 #include "engine/world/lamps.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/people_errors.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -105,6 +106,16 @@ struct TeleportAction {
   Position position;
 };
 
+/// EntityAction: an entity comes into the world, standing, or leaves it. One that is there is moved by neither the
+/// first, nor one that has crashed or is driven by a person by either.
+struct AddEntityAction {
+  EntityIndex entity = no_entity;
+  Position position;
+};
+struct DeleteEntityAction {
+  EntityIndex entity = no_entity;
+};
+
 /// Replaces the entity's route at junctions from now on.
 struct AssignRouteAction {
   std::shared_ptr<const Route> route;
@@ -143,7 +154,8 @@ struct SirenAction {
 /// SLIDE [SIDE]]": a breakable part (debris/breakable_part.hpp: "ice-slab", "traffic-cone", …) appears on the entity's
 /// roof at (X, Y) of its frame and slides backwards with SLIDE m/s, and to the left with SIDE m/s if there is a fifth
 /// number; an ice slab lies there from the start of the drive. Type "septet:black-ice", content "ROAD LANE S LENGTH
-/// MM": that stretch of a lane is under ice of MM thickness. Type "septet:ignite" or "septet:extinguish", content
+/// MM" or "ENTITY LENGTH MM": that stretch of a lane, or of the lane in which an entity stands, from it on ahead, is under ice
+/// of MM thickness. Type "septet:ignite" or "septet:extinguish", content
 /// "ENTITY": it begins or ceases to burn.
 struct EffectAction {
   enum class Kind : std::uint8_t { spill, ignite, extinguish, freeze };
@@ -197,8 +209,17 @@ struct OverlookAction {
   EntityIndex whom = no_entity;      ///< no_entity: the driver's car.
 };
 
+/// UserDefinedAction with type "septet:hazard" and the hazard's name as content: from now on the actors of its group, or
+/// the surroundings where there are no actors, endanger the driver, who is to react (docs/hazards.md).
+struct HazardAction {
+  std::string name;
+};
+
 /// PeopleErrorRates (engine/world/people_errors.hpp): a UserDefinedAction with type "septet:errors" and their text as
 /// content. They hold from then on, also for later swarms.
+///
+/// PeopleWish (engine/world/people.hpp): a UserDefinedAction with type "septet:people" and its text as content: people
+/// walk around the driver's car from then on, in the place of those before.
 ///
 /// Call (engine/world/call.hpp): a UserDefinedAction with type "septet:call" and the call's text as content, without
 /// its author.
@@ -208,6 +229,7 @@ using ActionVariant =
     std::variant<std::monostate, SpeedAction, SpeedProfileAction, KeepDistanceAction, SynchronizeAction,
                  LaneChangeAction, LaneOffsetAction, TeleportAction, FollowTrajectoryAction, AssignRouteAction,
                  AcquirePositionAction, EnvironmentAction, LightStateAction, SirenAction, EffectAction, ValueAction,
-                 TrafficSwarmAction, TrafficStopAction, Call, OverlookAction, PeopleErrorRates>;
+                 TrafficSwarmAction, TrafficStopAction, Call, OverlookAction, PeopleErrorRates, PeopleWish,
+                 AddEntityAction, DeleteEntityAction, HazardAction>;
 
 }  // namespace septet::scenario

@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/printable.hpp"
+#include "engine/scenario/model/misc_object.hpp"
 #include "engine/scenario/read/scenario_reading.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/people_errors.hpp"
 #include "engine/world/scene_call.hpp"
 
@@ -179,6 +182,23 @@ ActionVariant read_value_action(Reading& reading, const Element& element, const 
   return action;
 }
 
+ActionVariant read_entity_action(Reading& reading, const Element& element) {
+  const EntityIndex entity = read_entity_reference(reading, element);
+  const Element add = element.child("AddEntityAction"), gone = element.child("DeleteEntityAction");
+  if (!add && !gone) element.error("it does nothing", "add <AddEntityAction> or <DeleteEntityAction>");
+  ActionVariant action;
+  if (add) {
+    AddEntityAction added{entity, read_position(reading, add)};
+    if (entity != no_entity && object_form(reading.scenario.entities[entity]) == ObjectForm::breakable)
+      add.warning("what can break comes into the world as the drive begins, or not at all",
+                  "give it a TeleportAction in <Init>");
+    if (entity != no_entity) action = std::move(added);
+  } else if (gone && entity != no_entity) {
+    action = DeleteEntityAction{entity};
+  }
+  return action;
+}
+
 }  // namespace
 
 ActionVariant read_global_action(Reading& reading, const Element& action) {
@@ -194,6 +214,7 @@ ActionVariant read_global_action(Reading& reading, const Element& action) {
     }
     if (traffic.child("TrafficStopAction")) return TrafficStopAction{name};
   }
+  if (const Element entity = action.child("EntityAction")) return read_entity_action(reading, entity);
   return {};
 }
 
@@ -247,8 +268,34 @@ ActionVariant read_effect_command(Reading& reading, const Element& element, Effe
   return {};
 }
 
+/// "ENTITY LENGTH MM": the lane of an entity, from it on ahead.
+ActionVariant read_black_ice_before(const Reading& reading, const Element& element) {
+  const Command command = split_command(reading, element.content());
+  double length_m = 0.0, thickness_mm = 0.0;
+  constexpr double longest_m = 255.0, thickest_mm = 1000.0;
+  const auto number = [](const std::string& word, double& value) {
+    char* end = nullptr;
+    value = std::strtod(word.c_str(), &end);
+    return end && *end == 0 && value > 0.0;
+  };
+  if (command.words.size() != 2 || !number(command.words[0], length_m) || !number(command.words[1], thickness_mm) ||
+      length_m > longest_m || thickness_mm >= thickest_mm) {
+    element.error("its content names no stretch of a lane, or is out of bounds",
+                  "behind the entity's name write a length (m, at most 255) and a thickness (mm)");
+    return {};
+  }
+  EffectAction effect;
+  effect.kind = EffectAction::Kind::freeze;
+  effect.entity = command.entity;
+  effect.length_m = length_m;
+  effect.thickness_m = thickness_mm / 1000.0;
+  return effect;
+}
+
 /// The last words are numbers, those before them the road's id.
-ActionVariant read_black_ice(const Element& element) {
+ActionVariant read_black_ice(const Reading& reading, const Element& element) {
+  if (reading.names_are_elsewhere) return {};
+  if (split_command(reading, element.content()).entity != no_entity) return read_black_ice_before(reading, element);
   constexpr std::size_t count = 4;
   constexpr double most_mm = 1000.0;
   std::string id = element.content();
@@ -306,6 +353,13 @@ ActionVariant read_errors_command(const Element& element) {
   return {};
 }
 
+ActionVariant read_people_command(const Element& element) {
+  const auto wish = read_people_wish(element.content_with_parameters());
+  if (wish) return *wish;
+  element.error(wish.error().what, wish.error().remedy);
+  return {};
+}
+
 ActionVariant read_overlook_command(const Reading& reading, const Element& element) {
   const auto wish = read_overlook_wish(element.content());
   if (!wish) {
@@ -323,6 +377,17 @@ ActionVariant read_overlook_command(const Reading& reading, const Element& eleme
   return {};
 }
 
+ActionVariant read_hazard_command(const Element& element) {
+  constexpr std::size_t longest = 100;
+  HazardAction hazard{element.content()};
+  if (!hazard.name.empty() && hazard.name.size() <= longest && printable_characters(hazard.name) &&
+      hazard.name.find('"') == std::string::npos)
+    return hazard;
+  element.error(fmt::format("its content is no name of at most {} characters", longest),
+                "write the hazard's name: ball and child");
+  return {};
+}
+
 }  // namespace
 
 ActionVariant read_user_defined_action(Reading& reading, const Element& action) {
@@ -330,13 +395,15 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   if (!command) return {};
   const std::string type = command.text("type");
   if (type == "septet:spill") return read_effect_command(reading, command, EffectAction::Kind::spill);
-  if (type == "septet:black-ice") return read_black_ice(command);
+  if (type == "septet:black-ice") return read_black_ice(reading, command);
   if (type == "septet:ignite") return read_effect_command(reading, command, EffectAction::Kind::ignite);
   if (type == "septet:extinguish") return read_effect_command(reading, command, EffectAction::Kind::extinguish);
   if (type == "septet:call") return read_call_command(command);
   if (type == "septet:scene") return read_scene_command(command);
   if (type == "septet:errors") return read_errors_command(command);
+  if (type == "septet:people") return read_people_command(command);
   if (type == "septet:overlook") return read_overlook_command(reading, command);
+  if (type == "septet:hazard") return read_hazard_command(command);
   if (type == "septet:game") {
     read_game(reading, command);
     return {};
@@ -345,9 +412,10 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
     command.warning(
         "this command is not known and has no effect",
         "Septet knows septet:siren, septet:spill, septet:black-ice, septet:ignite, septet:extinguish, septet:call, "
-        "septet:scene, septet:errors, septet:overlook, septet:game");
+        "septet:scene, septet:errors, septet:overlook, septet:people, septet:hazard, septet:game");
     return {};
   }
+  if (reading.names_are_elsewhere) return {};
   const std::string content = command.content();
   const auto space = content.rfind(' ');
   const auto entity = find_entity(reading.scenario, content.substr(0, space));

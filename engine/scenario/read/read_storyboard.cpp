@@ -125,6 +125,8 @@ void read_init(Reading& reading, const Element& actions) {
       user.error("nobody listens yet when Init is carried out", "call from an event of the storyboard");
     if (std::holds_alternative<OverlookAction>(what))
       user.error("nobody drives yet when Init is carried out", "overlook from an event of the storyboard");
+    if (std::holds_alternative<HazardAction>(what))
+      user.error("nobody drives yet when Init is carried out", "let a hazard begin in an event of the storyboard");
     add(no_entity, std::move(what), user);
   }
   for (const Element& entry : actions.children("Private")) {

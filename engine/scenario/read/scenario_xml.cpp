@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -253,7 +255,34 @@ bool Element::required_boolean(const char* attribute, bool fallback) const {
   return boolean_or(attribute, fallback);
 }
 
-std::string Element::content() const { return pugi::xml_node(node_).text().as_string(); }
+std::string Element::content() const {
+  const std::string raw = pugi::xml_node(node_).text().as_string();
+  std::string content;
+  for (std::size_t at = 0; at < raw.size();) {
+    // Blanks stay as they are: each is a word of its own.
+    const std::size_t end = raw[at] == ' ' ? at + 1 : std::min(raw.find(' ', at), raw.size());
+    const std::string word = raw.substr(at, end - at);
+    at = end;
+    const auto value = word.starts_with('$') ? substitute(word, *parameters_) : Expected<std::string>(word);
+    if (!value) error(fmt::format("{}: {}", shown(word.c_str()), value.error().what), value.error().remedy);
+    content += value.value_or(word);
+  }
+  return content;
+}
+
+std::string Element::content_with_parameters() const {
+  std::string filled;
+  std::istringstream words(content());
+  for (std::string word; words >> word;) {
+    const auto value = std::min(word.find('=') + 1, word.size());
+    if (!filled.empty()) filled += ' ';
+    filled += word.substr(0, value);
+    const auto known = substitute(word.substr(value), *parameters_);
+    if (!known) error(known.error().what, known.error().remedy);
+    filled += known.value_or("");
+  }
+  return filled;
+}
 
 std::string Element::where() const {
   return file_ != nullptr ? file_->findings.where(pugi::xml_node(node_)) : std::string();

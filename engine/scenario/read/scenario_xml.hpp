@@ -98,6 +98,8 @@ class Element {
   }
   /// The text between the tags.
   std::string content() const;
+  /// The same, of words WORD=VALUE with a blank between two: a value that names a parameter ($name) is that parameter's.
+  std::string content_with_parameters() const;
 
   /// Warns about every element and attribute in here that was never read; not about the content of unread elements.
   void report_unread() const;

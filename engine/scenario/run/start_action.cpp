@@ -1,5 +1,7 @@
 #include "engine/scenario/run/start_action.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "engine/scenario/model/expression.hpp"
@@ -38,6 +40,28 @@ void change_value(const ValueAction& action, ScenarioState& state) {
   else if (number)
     value =
         fmt::format("{}", action.kind == ValueAction::Kind::add ? *number + action.number : *number * action.number);
+}
+
+/// Brings an entity into the world where it is not there.
+void add_entity(const road::RoadNetwork& network, const AddEntityAction& add, ScenarioState& state,
+                StepResult& result) {
+  EntityState& entity = state.entities[add.entity];
+  if (entity.active || entity.external) return;
+  const auto placement = resolve_position(network, state, add.position);
+  if (!placement) return;
+  entity = {};
+  place_entity(entity, *placement);
+  result.teleported.push_back(add.entity);
+}
+
+/// Takes an entity out of the world, with the actions that moved it, which are added to `replaced`.
+void delete_entity(EntityState& entity, std::vector<ElementIndex>& replaced) {
+  if (!entity.active || entity.external) return;
+  for (const auto& [active, action] : {std::pair{entity.speed_control.active, entity.speed_control.action},
+                                       std::pair{entity.lateral_control.active, entity.lateral_control.action},
+                                       std::pair{entity.path_control.active, entity.path_control.action}})
+    if (active && action != no_element) replaced.push_back(action);
+  entity = {};
 }
 
 /// Starts an action of one entity; returns whether it goes on.
@@ -139,6 +163,12 @@ struct StartPrivate {
     if (entity().path_control.timed) take_over(entity().path_control);
   }
   void take_route(const std::vector<Position>& waypoints) const {
+    if (entity().external) {
+      std::vector<road::LanePosition>& places = result.guided.emplace_back();
+      for (const Position& waypoint : waypoints)
+        if (const auto placement = resolve_position(network, state, waypoint); placement && placement->on_road)
+          places.push_back(placement->lane);
+    }
     entity().route = {
         std::make_shared<const std::vector<road::RoadIndex>>(plan_from(network, state, entity(), waypoints)), 0};
   }
@@ -171,8 +201,16 @@ StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& ne
     result.calls.push_back(*call);
   } else if (const auto* rates = std::get_if<PeopleErrorRates>(&what)) {
     result.error_rates.push_back(*rates);
+  } else if (const auto* people = std::get_if<PeopleWish>(&what)) {
+    result.people = *people;
   } else if (const auto* overlook = std::get_if<OverlookAction>(&what)) {
     result.overlooked.push_back(*overlook);
+  } else if (const auto* hazard = std::get_if<HazardAction>(&what)) {
+    result.hazards.push_back({hazard->name, actors});
+  } else if (const auto* add = std::get_if<AddEntityAction>(&what)) {
+    add_entity(network, *add, state, result);
+  } else if (const auto* gone = std::get_if<DeleteEntityAction>(&what)) {
+    delete_entity(state.entities[gone->entity], started.replaced);
   }
   for (const EntityIndex actor : actors) {
     const StartPrivate start{scenario, network, action, actor, state, result, started.replaced};

@@ -431,6 +431,16 @@ void release_entity(const Scenario& scenario, const road::RoadNetwork& network, 
   Step(scenario, network, state, result).release(state.entities[entity]);
 }
 
+void bring_into_world(const road::RoadNetwork& network, EntityIndex entity, const road::LanePosition& lane,
+                      ScenarioState& state) {
+  SEPTET_CHECK(entity < state.entities.size(), "entity {} of {}", entity, state.entities.size());
+  const auto placement = resolve_position(
+      network, state, LaneCoordinates{network.roads[lane.road].id, lane.lane, lane.s_m, lane.offset_m, {}});
+  if (!placement) return;
+  state.entities[entity] = {};
+  place_entity(state.entities[entity], *placement);
+}
+
 Expected<void> trigger_element(const Scenario& scenario, const road::RoadNetwork& network, ElementIndex element,
                                ScenarioState& state, StepResult& result) {
   if (element >= state.elements.size())

@@ -10,6 +10,7 @@
 /// elements, edges, delays and priorities are those of OpenSCENARIO XML 1.3, "Storyboard and entities", "Conditions and
 /// triggers".
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "engine/road/road_network.hpp"
 #include "engine/scenario/run/scenario_state.hpp"
 #include "engine/world/call.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/people_errors.hpp"
 
 namespace septet::scenario {
@@ -30,6 +32,12 @@ struct StoryboardEvent {
   ElementStatus to = ElementStatus::standby;
 };
 
+/// A hazard that begins now: its name, and those who are it (several, one or nobody).
+struct BegunHazard {
+  std::string name;
+  std::vector<EntityIndex> actors;
+};
+
 /// The storyboard's requests to other stages.
 struct StepResult {
   std::vector<StoryboardEvent> events;
@@ -38,7 +46,11 @@ struct StepResult {
   std::vector<Call> calls;                    ///< Messages to all who listen.
   std::vector<PeopleErrorRates> error_rates;  ///< Rates at which people err from now on.
   std::vector<OverlookAction> overlooked;     ///< Who is to be overlooked.
-  std::vector<std::string> stopped_traffic;   ///< Names of swarms to be ended.
+  std::optional<PeopleWish> people;           ///< Who is to walk around the driver's car.
+  /// Routes of the entity that is moved from outside: the places that it is to be guided over.
+  std::vector<std::vector<road::LanePosition>> guided;
+  std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
+  std::vector<BegunHazard> hazards;
   std::vector<EntityIndex> left;   ///< Entities that came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> reset;  ///< Entities with NaN or infinite numbers: they stand.
   std::vector<EntityIndex> teleported;  ///< Entities that did not come to their places by driving.
@@ -63,6 +75,10 @@ void place_external(const road::RoadNetwork& network, EntityIndex entity, const 
 /// are added to `result`.
 void release_entity(const Scenario& scenario, const road::RoadNetwork& network, EntityIndex entity,
                     ScenarioState& state, StepResult& result);
+
+/// Call between two steps: an entity that is not in the world comes into it, standing in a lane as one drives there.
+void bring_into_world(const road::RoadNetwork& network, EntityIndex entity, const road::LanePosition& lane,
+                      ScenarioState& state);
 
 /// Sets the obstacle in a scripted entity's path, each step anew; empty: its path is clear. It brakes for that and
 /// regains the speed of its script afterwards. `beside_is_taken`: the target place of its lateral action is occupied;

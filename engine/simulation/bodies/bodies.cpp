@@ -15,7 +15,9 @@
 #include "engine/simulation/solid_motion.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/simulation/wheel_ground.hpp"
+#include "engine/traffic/people/people.hpp"
 #include "engine/world/participant_shape.hpp"
+#include "engine/world/people.hpp"
 #include "engine/world/solid.hpp"
 
 namespace septet::simulation {
@@ -110,6 +112,7 @@ std::optional<impact::Body> pushed_body(const Model& model, const State& state, 
 
 bool give_up_rails(const Model& model, ParticipantId id, const Participant& car, State& state,
                    std::vector<Event>& events) {
+  if (is_person_of_swarm(id)) return traffic::release(id, state.people.swarm);
   if (!is_scripted(id)) return state.traffic && state.traffic->release(id);
   scenario::StepResult result;
   scenario::release_entity(model.scenario, model.roads, id - first_scripted_participant, state.scenario, result);
@@ -160,6 +163,9 @@ void append_bodies(const State& state, std::vector<Participant>& participants) {
 void append_others(const Model& model, const State& state, std::vector<Participant>& participants) {
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
   if (state.traffic) state.traffic->append_participants(participants);
+  // As many participants as a snapshot holds: a swarm of the most vehicles leaves no room for the most people.
+  if (participants.size() + state.people.swarm.people.size() + most_solids <= max_wire_participants)
+    traffic::append_participants(state.people.swarm, participants);
   append_bodies(state, participants);
 }
 

@@ -16,6 +16,7 @@
 
 #include "engine/math/rigid_transform.hpp"
 #include "engine/road/road_network.hpp"
+#include "engine/traffic/crossing.hpp"
 #include "engine/traffic/yield_line.hpp"
 
 namespace septet::traffic {
@@ -65,7 +66,7 @@ struct Way {
   bool has_light = false, has_stop = false;
   bool goes_on = true;          ///< A drive from here need not end.
   double tightest_per_m = 0.0;  ///< Greatest curvature, as a magnitude.
-  Range points, next, before, conflicts, long_conflicts;
+  Range points, next, before, conflicts, long_conflicts, walked;
 
   bool in_junction() const { return junction != road::no_index; }
 };
@@ -95,6 +96,13 @@ struct WayConflict {
   double seen_from_m = std::numeric_limits<double>::infinity();
 };
 
+/// A stretch of a way on which people cross.
+struct WalkedStretch {
+  std::uint32_t crossing = 0;
+  double from_m = 0.0, to_m = 0.0;
+  double lane_from_m = 0.0, lane_to_m = 0.0;  ///< The lane's breadth, as places on the crossing (crossing.hpp).
+};
+
 struct LaneGraph {
   std::vector<Way> ways;  ///< By road, section, then lane from the left.
   std::vector<WayPoint> points;
@@ -103,6 +111,7 @@ struct LaneGraph {
   /// By way: others of its junction that one vehicle may pass on and another drive beside, but no two long ones: their
   /// ends reach over in bends (body_on_route, town_stages.hpp).
   std::vector<WayIndex> long_conflicts;
+  std::vector<WalkedStretch> walked;
   std::vector<WayIndex> way_of_lane;         ///< By `first_lane` of the section; no_way: not driven on.
   std::vector<std::uint32_t> first_section;  ///< By road: index in `first_lane`.
   std::vector<std::uint32_t> first_lane;
@@ -114,12 +123,18 @@ struct LaneGraph {
   std::span<const WayConflict> conflicts_of(const Way& way) const {
     return {conflicts.data() + way.conflicts.first, way.conflicts.count};
   }
+  std::span<const WalkedStretch> walked_of(const Way& way) const {
+    return {walked.data() + way.walked.first, way.walked.count};
+  }
   std::span<const WayIndex> long_conflicts_of(const Way& way) const {
     return {long_conflicts.data() + way.long_conflicts.first, way.long_conflicts.count};
   }
 };
 
 LaneGraph build_lane_graph(const road::RoadNetwork& network);
+
+/// Adds the stretches of these crossings, in the place of earlier ones.
+void mark_crossings(const road::RoadNetwork& network, std::span<const CrossingPlace> places, LaneGraph& graph);
 
 /// The way of a lane at a station; no_way: cars do not drive there.
 WayIndex way_at(const LaneGraph& graph, const road::RoadNetwork& network, road::RoadIndex road, int lane, double s_m);

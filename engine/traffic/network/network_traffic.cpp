@@ -25,8 +25,8 @@ SEPTET_MEMBERS(DriverError, who, kind, stage, whom, since_s, lasts_s, nearest_m,
 SEPTET_MEMBERS(AwaitedOverlook, whom, since_s)
 // Told is for the log alone.
 SEPTET_MEMBER_GROUPS(TownErrors, hashed(drivers, awaited, red_for_s), kept(told))
-// Errors are hashed where there are any. Sights and air are given anew each tick, openings taken in it.
-SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(sights, air, openings), kept(errors),
+// Errors are hashed where there are any. People, sights and air are given anew each tick, openings taken in it.
+SEPTET_MEMBER_GROUPS(TownState, hashed(vehicles, time_s), left_out(people, sights, air, openings), kept(errors),
                      hashed(claims, foreign_stands_s), kept(bad_numbers, next_id))
 
 namespace {
@@ -77,6 +77,10 @@ class NetworkTraffic final : public TrafficEngine {
   void see_walls(const sight::Walls& walls) override {
     walls_ = &walls;
     look_past_walls(walls, graph_, gone_);
+  }
+  void see_crossings(std::span<const CrossingPlace> places) override { mark_crossings(network_, places, graph_); }
+  void show_people(std::span<const PersonCrossing> people) override {
+    town_.people.assign(people.begin(), people.end());
   }
   void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
     parameters_ = parameters;

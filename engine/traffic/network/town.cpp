@@ -160,8 +160,9 @@ void advance_town(const TrafficParameters& parameters, const road::RoadNetwork& 
     const double turn_out_at_m = any_adrift ? round_wrecks(network, graph, foreign, presences, town, i) : no_leader;
     const Minded minded = town.errors.any() ? mind_erring(tick, random, presences, town, i)
                                             : mind_others(tick, random, presences, town, i);
-    double a =
-        acceleration_of(graph, vehicle, minded.leader, std::min(minded.line_m, turn_out_at_m), minded.within_mps2);
+    double a = acceleration_of(graph, vehicle, minded.leader,
+                               std::min({minded.line_m, turn_out_at_m, stop_for_people_m(graph, town, vehicle)}),
+                               minded.within_mps2);
     if (const auto sight = std::ranges::find(town.sights, vehicle.id, &LimitedSight::driver);
         sight != town.sights.end())
       a = std::min(a, acceleration_within_sight(vehicle.driver.following, vehicle.speed_mps, sight->seen_m));

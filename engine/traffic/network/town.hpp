@@ -26,6 +26,9 @@
 /// Where a vehicle adrift lies on a lane outside of a junction, others pass it over the lane beside it, of their own
 /// direction or the other, once nobody is on it or comes; who has come to rest too near to turn out stays.
 ///
+/// Whoever walks on a crossing, or stands at a crosswalk and would go, is let pass by those who can stop; a driver goes on
+/// only where he is over it before the other comes to his lane (let_people_pass.cpp).
+///
 /// Drivers err at the rates of the parameters, or by a wish (errors.hpp).
 ///
 /// Sources: car following driver.hpp; gaps: Highway Capacity Manual (Transportation Research Board, 2010), table 19-10,
@@ -40,6 +43,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/core/random.hpp"
 #include "engine/sight/air.hpp"
+#include "engine/traffic/crossing.hpp"
 #include "engine/traffic/driver.hpp"
 #include "engine/traffic/network/errors.hpp"
 #include "engine/traffic/network/lane_graph.hpp"
@@ -86,9 +90,10 @@ struct TownVehicle {
 struct TownState {
   std::vector<TownVehicle> vehicles;
   double time_s = 0.0;
-  std::vector<LimitedSight> sights;   ///< The caller's, of this tick.
-  sight::OpticalDepth air;            ///< The same.
-  std::vector<ViewOpening> openings;  ///< Of this tick.
+  std::vector<PersonCrossing> people;  ///< The caller's, of this tick: those at crossings, by crossing.
+  std::vector<LimitedSight> sights;    ///< The caller's, of this tick.
+  sight::OpticalDepth air;             ///< The same.
+  std::vector<ViewOpening> openings;   ///< Of this tick.
   TownErrors errors;
   std::uint64_t claims = 0;              ///< Given so far.
   std::vector<double> foreign_stands_s;  ///< One a foreign vehicle.

@@ -133,6 +133,12 @@ std::optional<LightAhead> light_ahead(const LaneGraph& graph, const TownVehicle&
 /// if there is none.
 double wait_within_mps2(const LaneGraph& graph, const Presences& presences, TownState& town, std::size_t vehicle);
 
+/// Those who are at one crossing.
+std::span<const PersonCrossing> people_at(const TownState& town, std::uint32_t crossing);
+
+/// Distance from a vehicle's front to the line at which it is to stop for people; infinite if there is none.
+double stop_for_people_m(const LaneGraph& graph, const TownState& town, const TownVehicle& vehicle);
+
 /// Acceleration before a place that is free after a time (infinite: never). Who can stop there by 2 m/s² later is free;
 /// else it brakes evenly, so as to come to it when it is free, or to stand before it.
 double acceleration_before(double stop_m, double free_in_s, double speed_mps);

@@ -113,6 +113,16 @@ bool is_in_somebody(const LaneGraph& graph, const TownState& town, const Vehicle
   });
 }
 
+/// True where somebody walks on a crossing of the way, from behind the rear of a vehicle to where it could stop.
+bool somebody_crosses(const LaneGraph& graph, const TownState& town, const Way& way, double rear_m, double front_m) {
+  constexpr double behind_m = 3.0, stops_in_m = 40.0;
+  for (const WalkedStretch& stretch : graph.walked_of(way)) {
+    if (stretch.to_m < rear_m - behind_m || stretch.from_m > front_m + stops_in_m) continue;
+    if (!std::ranges::all_of(people_at(town, stretch.crossing), &PersonCrossing::waits)) return true;
+  }
+  return false;
+}
+
 /// Speed that the bends allow to a vehicle of which all from its rear to its front is in them.
 double bend_mps(const LaneGraph& graph, const Way& way, double rear_m, double front_m) {
   double square_m2ps2 = bend_square_at(graph, way, front_m).m2ps2;
@@ -142,6 +152,7 @@ bool try_to_enter(const TrafficParameters& parameters, const LaneGraph& graph, c
   double ahead_m = 200.0, ahead_mps = 0.0;
   if (!is_clear(presences.on(index), town, index, front_m, front_m - length_m, ahead_m, ahead_mps)) return false;
   if (is_in_somebody(graph, town, vehicle_models()[vehicle.model], way, front_m)) return false;
+  if (somebody_crosses(graph, town, way, front_m - length_m, front_m)) return false;
   vehicle.outside = false;
   vehicle.route = {index};
   vehicle.front_m = front_m;

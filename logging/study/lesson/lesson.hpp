@@ -34,6 +34,8 @@ enum class LessonMeasure {
   turn,     ///< Per turn at a fork: time for which the indicator had been on at its beginning, s; at least the bound.
   limit,    ///< Largest excess over the posted limit, km/h; at most the bound.
   braking,  ///< Hardest braking over half a second, m/s², at 2 m/s or more; at most the bound.
+  /// Per hazard (hazard_reactions.hpp): time from when it could be seen to the driver's reaction, s; at most the bound.
+  perception,
 };
 
 struct LessonTask {

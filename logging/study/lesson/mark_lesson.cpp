@@ -19,6 +19,7 @@
 #include "logging/study/lesson/lesson.hpp"
 #include "logging/study/measures/crashes.hpp"
 #include "logging/study/measures/glances.hpp"
+#include "logging/study/measures/hazard_reactions.hpp"
 #include "logging/study/measures/lane_changes.hpp"
 #include "logging/study/measures/sample_steps.hpp"
 
@@ -242,6 +243,16 @@ std::vector<Moment> hazards(const DriveSeen& drive) {
   return {{halt_s, drive.samples.back().simulated_time_s - halt_s}};
 }
 
+std::vector<Moment> perceptions(const DriveSeen& drive) {
+  std::vector<Moment> moments;
+  for (const HazardReaction& reaction : find_hazard_reactions(drive.events, drive.samples))
+    if (reaction.counts())
+      moments.push_back(
+          {reaction.visible_s, reaction.time_s,
+           reaction.response == HazardResponse::censored ? reaction.name + ", without any reaction" : reaction.name});
+  return moments;
+}
+
 /// Of the driver's car; 0 without a record that has it.
 double delta_v_of(const std::optional<CrashRecord>& crash) {
   return crash ? glm::length(crash->of_first.delta_v_mps.value_or(Vec2(0.0))) : 0.0;
@@ -294,6 +305,8 @@ std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
       return limits(drive);
     case LessonMeasure::braking:
       return brakings(drive);
+    case LessonMeasure::perception:
+      return perceptions(drive);
     case LessonMeasure::collision:
       break;
   }

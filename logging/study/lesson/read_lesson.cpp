@@ -31,7 +31,7 @@ constexpr std::array measure_names{
     MeasureName{LessonMeasure::stop, "stop", "m"},          MeasureName{LessonMeasure::hazard, "hazard", "s"},
     MeasureName{LessonMeasure::collision, "collision", ""}, MeasureName{LessonMeasure::yielding, "yielding", "s"},
     MeasureName{LessonMeasure::turn, "turn", "s"},          MeasureName{LessonMeasure::limit, "limit", "km/h"},
-    MeasureName{LessonMeasure::braking, "braking", "m/s²"},
+    MeasureName{LessonMeasure::braking, "braking", "m/s²"}, MeasureName{LessonMeasure::perception, "perception", "s"},
 };
 
 LessonTask read_task(const toml::table& table, std::string_view file, std::set<std::string>& taken, Error& error) {

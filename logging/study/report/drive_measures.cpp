@@ -64,6 +64,7 @@ DriveMeasures compute_drive_measures(const DriveRecords& records, const MeasureS
   measures.reversals_cognitive = compute_reversal_rate(samples, settings.reversals_cognitive);
   measures.steering_entropy =
       compute_steering_entropy(records.inputs, records.ticks_per_second, settings.steering_entropy);
+  measures.hazard_reactions = find_hazard_reactions(records.events, samples, settings.hazard_reaction);
   if (settings.braking_event)
     measures.brake_reactions = find_brake_reactions(records.events, records.inputs, records.ticks_per_second,
                                                     *settings.braking_event, settings.brake_reaction);

@@ -10,6 +10,7 @@
 #include "logging/study/measures/collisions.hpp"
 #include "logging/study/measures/following.hpp"
 #include "logging/study/measures/glances.hpp"
+#include "logging/study/measures/hazard_reactions.hpp"
 #include "logging/study/measures/lane_changes.hpp"
 #include "logging/study/measures/lateral_position.hpp"
 #include "logging/study/measures/speeding.hpp"
@@ -37,6 +38,7 @@ struct MeasureSettings {
   SteeringEntropySettings steering_entropy;
   std::optional<NamedEvent> braking_event;  ///< Event to brake for; without it there is no reaction time.
   BrakeReactionSettings brake_reaction;
+  HazardReactionSettings hazard_reaction;
 };
 
 struct DriveMeasures {
@@ -63,6 +65,7 @@ struct DriveMeasures {
   ReversalRate reversals_visual, reversals_cognitive;
   SteeringEntropy steering_entropy;
   std::vector<BrakeReaction> brake_reactions;
+  std::vector<HazardReaction> hazard_reactions;
   std::vector<Collision> collisions;
 };
 

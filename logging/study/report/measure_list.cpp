@@ -235,6 +235,30 @@ void list_incidents(const DriveMeasures& m, const MeasureSettings& settings, Lis
                : std::string("No event is named to react to (--brake-event)."));
 }
 
+void list_hazards(const DriveMeasures& m, const MeasureSettings& settings, List& list) {
+  std::vector<double> times_s;
+  std::size_t without = 0, uncounted = 0;
+  for (const HazardReaction& reaction : m.hazard_reactions) {
+    if (!reaction.counts())
+      ++uncounted;
+    else if (reaction.response == HazardResponse::censored)
+      ++without;
+    else
+      times_s.push_back(reaction.time_s);
+  }
+  list.of(times_s.size() + without, uncounted);
+  list.add_of_samples(
+      "hazards_without_reaction", "Hazards without a reaction", "", static_cast<double>(without),
+      fmt::format("Within {:g} s of the first moment at which the driver could see it, or until the log ends.",
+                  settings.hazard_reaction.longest_s));
+  list.of(times_s.size(), without + uncounted);
+  list.add("hazard_reaction_median_s", "Hazard reaction, median", "s", median(times_s),
+           fmt::format("From the first moment at which the hazard could be seen to the brake pedal beyond {:g} of its "
+                       "travel, or to half "
+                       "of the accelerator given back. Missing: no reaction, never in sight, or the car stood.",
+                       settings.hazard_reaction.pressed));
+}
+
 }  // namespace
 
 std::vector<ListedMeasure> list_measures(const DriveMeasures& measures, const MeasureSettings& settings) {
@@ -245,6 +269,7 @@ std::vector<ListedMeasure> list_measures(const DriveMeasures& measures, const Me
   list_following(measures, settings, list);
   list_steering(measures, settings, list);
   list_incidents(measures, settings, list);
+  list_hazards(measures, settings, list);
   return list.take();
 }
 

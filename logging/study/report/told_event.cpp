@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "engine/document/table_line.hpp"
+#include "engine/world/hazard.hpp"
 #include "engine/world/people_errors.hpp"
 #include "engine/world/solid.hpp"
 #include "logging/study/measures/crashes.hpp"
@@ -183,6 +184,8 @@ std::string text_of(const Event& event, const ParticipantNames& names) {
   if (event.kind == "crash_of_others") return crash_of_others_text(event, names);
   if (event.kind == crash_event && event.participant)
     if (const auto crash = read_crash(*event.participant, event.detail)) return "crash: " + crash_text(*crash, names);
+  if (event.kind == hazard_event)
+    if (const auto hazard = read_hazard_note(event.detail)) return "a hazard begins: " + hazard->name;
   if (event.kind == people_error_event) return people_error_text(event, names);
   if (event.kind == "screen") return event.detail;
   if (event.kind == "speed_limit")

@@ -41,6 +41,7 @@ function event_words({ kind, values = {}, text }) {
   if (kind === 'rating') return t('event.rating', { value: values.value || '' }) + by;
   if (kind === 'collision') return t(values.what ? 'event.collision' : 'event.collision_somebody', { what: heard(values.what || ''), kmh: kmh_of(values.closing_speed_mps || 0) });
   if (kind === 'crash') return crash_words(values);
+  if (kind === 'hazard') return t('event.hazard', { name: values.name || '' });
   if (kind === 'error_of_people') return error_words(values);
   if (kind === 'kerb') return t('event.kerb', { kmh: kmh_of(values.speed_mps || 0) });
   if (kind === 'wheel_damage') return t('event.wheel_damage', { wheel: t(`wheel.${values.wheel}`) });

@@ -73,6 +73,7 @@ function show_state() {
   show_car();
   s.conditions.forEach((value, i) => sliders[i] && sliders[i](value));
   show_triggers();
+  show_hazards();
   show_entities();
   show_screens();
   age_thumbnails();
@@ -83,6 +84,16 @@ function show_state() {
 function short_name(name) {
   const parts = name.split('::'), own = parts.pop(), parent = parts.pop();
   return parent && parent !== own ? `${own} (${parent})` : own;
+}
+
+function show_hazards() {
+  const list = $('hazards'), key = JSON.stringify(state.hazards);
+  if (list.dataset.key === key) return;
+  list.dataset.key = key;
+  const chosen = list.value;
+  list.replaceChildren(...state.hazards.map((name) => new Option(name)));
+  if (state.hazards.includes(chosen)) list.value = chosen;
+  $('hazardrow').hidden = !state.hazards.length;
 }
 
 function show_triggers() {

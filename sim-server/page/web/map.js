@@ -121,7 +121,7 @@ const place_of = (event) => [view.x + (event.offsetX - canvas.clientWidth / 2) /
 
 /// What the next click on the map does, by the button that was pressed for it; null: it moves the map.
 let map_click = null;
-const map_click_words = { place: 'controls.place', put: 'controls.put', placestock: 'controls.place', pick: 'placing.pick' };
+const map_click_words = { place: 'controls.place', put: 'controls.put', hazard: 'controls.hazard', placestock: 'controls.place', pick: 'placing.pick', guideclick: 'controls.guide_click' };
 function set_map_click(does) {
   map_click = does;
   for (const [id, word] of Object.entries(map_click_words)) {
@@ -137,6 +137,8 @@ canvas.onpointerdown = (event) => {
   const there = place_of(event);
   if (map_click === 'place' && mine) return place_at(...there);
   if (map_click === 'put' && mine) return put_at(...there);
+  if (map_click === 'guideclick' && mine) { set_map_click(null); return change(`to ${there.map((at) => at.toFixed(1)).join(',')}`); }
+  if (map_click === 'hazard' && mine) return set_hazard_at(...there);
   if (grasp(...there, event)) { if (grip) canvas.setPointerCapture(event.pointerId); return; }
   held = [event.clientX, event.clientY]; canvas.setPointerCapture(event.pointerId);
 };

@@ -48,4 +48,13 @@ $('trafficform').onsubmit = (event) => {
   event.preventDefault();
   change(`traffic vehicles=${Math.max(0, Math.min(3000, Math.round(+$('vehicles').value || 0)))}`);
 };
+$('guideform').onsubmit = (event) => {
+  event.preventDefault();
+  change(`to ${$('guide_to').value.trim() || 'nowhere'}`);
+};
+/// The map was clicked there: the chosen hazard waits for the driver in the lane nearest to there.
+function set_hazard_at(x, y) {
+  set_map_click(null);
+  if ($('hazards').value) change(`hazard x_m=${+x.toFixed(2)} y_m=${+y.toFixed(2)} name=${$('hazards').value}`);
+}
 $('overlook').onclick = () => change('overlook');

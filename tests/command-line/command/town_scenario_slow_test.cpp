@@ -17,6 +17,7 @@
 #include "program/child_process.hpp"
 #include "tests/checkout.hpp"
 #include "tests/engine/traffic/lit_town.hpp"
+#include "tests/engine/traffic/ten_routes.hpp"
 #include "tests/engine/traffic/town_run.hpp"
 #include "tests/shipped_files.hpp"
 #include "tests/temporary_folder.hpp"
@@ -104,6 +105,17 @@ TEST_CASE(
                              "--spider.space-radius", "100"});
   for (const char* seed : {"1", "2"})
     check_generated(std::string("random-") + seed, {"--rand", "--rand.iterations", "60", "--seed", seed});
+}
+
+TEST_CASE("ten routes of 5 km hold together in a grid of netgenerate with two lanes each way") {
+  if (!has_sumo()) return;
+  const TemporaryFolder folder;
+  run("netgenerate", {"--grid", "--grid.number", "6", "--grid.length", "180", "-L", "2", "-o", "grid.net.xml"},
+      folder.path());
+  run("netconvert", {"-s", "grid.net.xml", "--opendrive-output", "grid.xodr"}, folder.path());
+  const auto network = road::read_opendrive(text_of(folder.path() / "grid.xodr"), "grid.xodr");
+  REQUIRE_MESSAGE(network.has_value(), why_not(network));
+  traffic::drives_ten_routes(*network);
 }
 
 TEST_CASE("a swarm drives a map of OpenStreetMap for five minutes, and none overlaps another") {

@@ -2,6 +2,7 @@
 import pathlib
 import queue
 import sqlite3
+import subprocess
 import sys
 import tempfile
 import time
@@ -279,7 +280,7 @@ def undo_by_the_server(host: str, port: int, keys: pathlib.Path) -> None:
     with septet.connect(host, port, keys / "guest/guest.key") as guest:
         assert "nothing of guest's" in refused(guest.undo).why
     with septet.connect(host, port, keys / "reader/reader.key") as reader:
-        assert "may not operate" in refused(reader.undo).why
+        assert "may not undo" in refused(reader.undo).why and "needs `KEY reader … edit`" in refused(reader.undo).why
     with septet.connect(host, port, keys / "lab/lab.key") as lab:
         assert not lab.get(tree.name).visible
         assert lab.undo() > 0
@@ -327,6 +328,15 @@ with tempfile.TemporaryDirectory() as name:
         (folder / "lines").write_text(f"save {folder}/as-lines.edits\nmove stimuli/again 1 2 3\n")
         saved, moved = [line for line in run(str(septet_program), "edit", "--keys", str(keys / "lab"), str(folder / "lines")).splitlines() if line[1:2] == ":"]
         assert saved == "1: done" and moved.startswith("2: done, shown from tick "), (saved, moved)
+        (folder / "unended").write_text("begin\ncreate stimuli/unended\n")
+        unended = subprocess.run([str(septet_program), "edit", "--keys", str(keys / "lab"), str(folder / "unended")], capture_output=True, text=True)
+        assert unended.returncode != 0 and "without its `commit`" in unended.stdout + unended.stderr, unended
+        with septet.connect("127.0.0.1", port, keys / "lab/lab.key"):
+            try:
+                septet.connect("127.0.0.1", port, keys / "lab/lab.key")
+                raise AssertionError("two scripts have one key")
+            except septet.Ended as why:
+                assert "another client with this key is connected" in str(why), why
         ended_s = time_of("127.0.0.1", port, keys)
     log, session = drive.log_file.read_text(), drive.session
     assert "lab connected, which is no screen of this rig: it reads the world and may hide, move, paint, create, solid, and operates" in log, log

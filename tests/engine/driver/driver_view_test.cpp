@@ -1,5 +1,7 @@
 #include "engine/driver/driver_view.hpp"
 
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "engine/road/lane_geometry.hpp"
@@ -58,6 +60,40 @@ TEST_CASE("a vehicle is in the lanes that its body lies over, and a second early
   CHECK(on_line[0].innermost_lane == 6);
   CHECK(on_line[0].outermost_lane == 7);
   CHECK(coming[0].outermost_lane == 7);
+}
+
+namespace {
+
+/// Somebody so far to the left of the middle of the driver's lane, 40 m ahead, who moves straight to the left (or right).
+std::vector<SeenVehicle> seen_across(const char* model, double left_m, double to_left_mps, bool siren = false) {
+  Ahead scene(left_m);
+  Participant& other = scene.snapshot.participants[1];
+  other.model = *find_vehicle_model(model);
+  other.velocity_mps = other.world_from_vehicle.orientation * Vec3(0.0, to_left_mps, 0.0);
+  const Quat turned = orientation_from_angles(to_left_mps > 0.0 ? 1.5708 : -1.5708, 0.0, 0.0);
+  other.world_from_vehicle.orientation = other.world_from_vehicle.orientation * turned;
+  other.lamps.set(Lamp::siren, siren);
+  return scene.seen();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "one on foot beside the lanes is in the way if his walk leads into them before the car is there, and goes nowhere "
+    "along") {
+  const auto walks_in = seen_across("pedestrian", -3.6, 1.8);
+  REQUIRE(walks_in.size() == 1);
+  CHECK(walks_in[0].outermost_lane == 7);
+  CHECK(std::abs(walks_in[0].speed_mps) < 0.1);
+  CHECK(seen_across("pedestrian", -3.6, 0.0).empty());
+  CHECK(seen_across("pedestrian", -3.6, -1.8).empty());
+  CHECK(seen_across("pedestrian", -9.0, 1.8).empty());
+}
+
+TEST_CASE("a vehicle that comes across counts once it cannot stop before the lanes, one with a siren before that") {
+  CHECK(seen_across("saloon", -13.0, 6.0).empty());
+  CHECK(seen_across("saloon", -13.0, 6.0, true).size() == 1);
+  CHECK(seen_across("saloon", -14.0, 14.0).size() == 1);
 }
 
 TEST_CASE("braking is seen by the speed that it takes, within a second, and not in one who was not there before") {

@@ -1,6 +1,7 @@
 #include "engine/editor/content_ahead.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <variant>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "engine/core/bytes.hpp"
 #include "engine/replication/message.hpp"
 #include "engine/scene/command_codec.hpp"
+#include "engine/scene/growth.hpp"
+#include "engine/scene/store.hpp"
 
 namespace septet::editor {
 namespace {
@@ -68,6 +71,34 @@ TEST_CASE("of more commands than a batch may have the contents go ahead in batch
   }
   CHECK(ahead == fragments + 1);
   CHECK(split.rest.size() == 2);
+}
+
+TEST_CASE(
+    "a large shape reaches its size in batches that each let it grow by less than a batch may, with all its values") {
+  constexpr std::uint32_t vertices = 300'000, polygons = 500'000;
+  std::vector<Command> commands;
+  for (const NodeId id : {1u, 2u}) {
+    commands.insert(commands.end(), {NodeCreate{id, NodeType::geometry}, GeometrySizeSet{id, vertices, polygons},
+                                     GeometryLayerSet{id, 5, "map_u", LayerType::corner_real, 0, 0.0}});
+    for (std::uint32_t first = 0; first < vertices; first += 50'000)
+      commands.emplace_back(VerticesSet{id, first, std::vector<glm::vec3>(50'000, glm::vec3(1.0f * id))});
+  }
+  const SplitBatch split = split_content(commands);
+  CHECK(split.rest.empty());
+  Store whole, stepped;
+  for (const Command& command : commands) REQUIRE(whole.apply(command).has_value());
+  for (const auto& batch : split.ahead) {
+    CHECK(grown_bytes(stepped, batch) <= replication::most_grown_bytes_of_batch);
+    for (const Command& command : batch) REQUIRE(stepped.apply(command).has_value());
+  }
+  CHECK(same_content(stepped, whole));
+}
+
+TEST_CASE("a size alone may make a large shape, and goes ahead too") {
+  const SplitBatch split = split_content(
+      std::vector<Command>{NodeCreate{1, NodeType::geometry}, GeometrySizeSet{1, 1'000'000, 1}, HideSet{9, true}});
+  CHECK(split.ahead.size() > 2);
+  CHECK(split.rest == std::vector<Command>{HideSet{9, true}});
 }
 
 }  // namespace septet::editor

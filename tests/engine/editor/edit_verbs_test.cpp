@@ -22,6 +22,7 @@
 #include "engine/scene/edit_file.hpp"
 #include "engine/scene/inverse.hpp"
 #include "engine/scene/solid_box.hpp"
+#include "engine/world/solid.hpp"
 
 namespace septet::editor {
 namespace {
@@ -32,6 +33,7 @@ constexpr scene::NodeId own_ids = 1000;
 struct EditedWorld {
   scene::Store store;
   EditNames names{own_ids, own_ids};
+  Snapshot now{};
 
   Expected<EditedLine> take(std::string_view line) {
     auto edit = edit_of(scene::words_of(line).value(), store, names);
@@ -40,7 +42,7 @@ struct EditedWorld {
     return edit;
   }
   std::vector<std::string> find(std::string_view what) const {
-    const auto found = found_nodes(scene::words_of(fmt::format("find {}", what)).value(), store);
+    const auto found = found_nodes(scene::words_of(fmt::format("find {}", what)).value(), store, now);
     REQUIRE(found.has_value());
     std::vector<std::string> called;
     called.reserve(found->size());
@@ -84,6 +86,43 @@ TEST_CASE("what lies within so many metres of a place is found, whatever its hei
   CHECK(editor.find("b* near 0 0 6") == Names{"beyond"});
 }
 
+TEST_CASE("what goes or was pushed is found where it is at the tick, and no more where it was placed") {
+  EditedWorld world;
+  REQUIRE(world.take("create box 10 0 1"));
+  REQUIRE(world.take("create ball 0 0 0"));
+  const scene::NodeId ball = world.names.fresh.find("ball")->second;
+  REQUIRE(world.store.apply(scene::MotionSet{ball, {.legs = {{.velocity_mps = {10.0, 0.0, 0.0}}}}}));
+  world.now.simulated_time_s = 2.0;
+  CHECK(world.find("* near 20 0 0.1") == Names{"ball"});
+  CHECK(world.find("ball near 0 0 0.1").empty());
+
+  const scene::NodeId box = world.names.fresh.find("box")->second;
+  REQUIRE(world.take("solid box 20"));
+  REQUIRE(world.store.apply(scene::TagSet{box, 0xFF00, 2, {"participant", first_solid_participant}}));
+  REQUIRE(world.store.apply(scene::TagSet{box, 0xFF00, 3, {"foot_m", Vec3(0.0, 0.0, -1.0)}}));
+  CHECK(world.find("* near 10 0 0.1") == Names{"box"});
+  Participant pushed;
+  pushed.id = first_solid_participant;
+  pushed.world_from_vehicle.position_m = {30.0, 5.0, 0.0};
+  pushed.lamps.set(Lamp::brake, true);
+  world.now.participants = {pushed};
+  CHECK(world.find("* near 30 5 0.1") == Names{"box"});
+  CHECK(world.find("* near 10 0 0.1").empty());
+}
+
+TEST_CASE("a colour has parts from 0 to 1, and a picture that is not there is to be looked for") {
+  EditedWorld world;
+  REQUIRE(world.take("board b 1 1"));
+  CHECK(world.take("color b 1 0 0.5"));
+  for (const char* line : {"color b 2 0 0", "color b 0 0 -0.1", "color b 1 1", "repaint 1 0 0 1.5"}) {
+    const auto refused = world.take(line);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().what.find("from 0 to 1") != std::string::npos);
+  }
+  CHECK(world.take("repaint 1 0 0 1"));
+  CHECK(world.take("picture b /nowhere/none.png").error().remedy == "check that the file exists and can be read");
+}
+
 TEST_CASE("a board is from a millimetre to a kilometre wide and high, and stands where it is said or at the origin") {
   for (const char* size : {"0.001 1000", "1000 0.001", "2 1", "2 1 3 4 5", "2 1 3 4 5 90"}) {
     CAPTURE(size);
@@ -99,6 +138,18 @@ TEST_CASE("a board is from a millimetre to a kilometre wide and high, and stands
   }
 }
 
+TEST_CASE("a participant is hidden by its number, and shown again at the same root") {
+  EditedWorld editor;
+  REQUIRE(editor.take("hide 7").has_value());
+  const scene::Node* root = editor.store.find(scene::NodeType::object, "model/participant/7");
+  REQUIRE(root);
+  CHECK(std::get<scene::ObjectData>(root->data).hidden);
+  REQUIRE(editor.take("show 7").has_value());
+  CHECK_FALSE(std::get<scene::ObjectData>(root->data).hidden);
+  CHECK(editor.store.nodes().size() == 1);
+  CHECK_FALSE(editor.take("hide nobody").has_value());
+}
+
 TEST_CASE("what is made under a name again takes the place of what had it, with all its parts") {
   EditedWorld editor;
   REQUIRE(editor.take("board sign 2 1").has_value());
@@ -106,8 +157,9 @@ TEST_CASE("what is made under a name again takes the place of what had it, with 
   REQUIRE(parts > 1);
   REQUIRE(editor.take("board sign 3 1 5 0 0").has_value());
   CHECK(editor.store.nodes().size() == parts);
+  REQUIRE(editor.take("text sign HELLO").has_value());
   REQUIRE(editor.take("create sign").has_value());
-  CHECK(editor.store.nodes().size() == 1);
+  CHECK(editor.store.nodes().size() == 1);  // The picture of the text has gone as well.
   REQUIRE(editor.take("remove sign").has_value());
   CHECK(editor.store.nodes().empty());
 }
@@ -295,6 +347,28 @@ TEST_CASE("what is moved keeps its heading unless another is given, and its scal
   CHECK(place().scale == glm::vec3(2));
 }
 
+TEST_CASE("a place ends the motion, set by another's line or by one that the scene does not have yet") {
+  EditedWorld world;
+  REQUIRE(world.take("create ball 1 2 3"));
+  const scene::NodeId ball = world.names.fresh.find("ball")->second;
+  REQUIRE(world.store.apply(scene::MotionSet{ball, {.legs = {{.velocity_mps = {1.0, 0.0, 0.0}}}}}));
+  // Another editor's names, the same scene.
+  EditNames others{2000, 2000};
+  const auto moved = edit_of(scene::words_of("move ball 4 5 6 1 0 0 0 2 2 2").value(), world.store, others).value();
+  REQUIRE(moved.commands.size() == 2);
+  CHECK(std::get<scene::TransformSet>(moved.commands[0]).transform.scale == glm::vec3(2.0F));
+  CHECK(std::get<scene::MotionSet>(moved.commands[1]).motion.legs.empty());
+
+  REQUIRE(world.take("move ball 1 2 3"));
+  CHECK(world.take("move ball 1 2 4")->commands.size() == 1);
+  const auto line = [&](std::string_view text) {
+    return edit_of(scene::words_of(text).value(), world.store, world.names).value().commands.size();
+  };
+  CHECK(line("go ball 1 0 0") == 1);
+  CHECK(line("move ball 1 0 0 1 0 0 0 1 1 1") == 2);
+  CHECK(line("move ball 2 0 0 1 0 0 0 1 1 1") == 1);
+}
+
 TEST_CASE("an imported model's properties are tags of its object, by which it is found") {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("{}-deer.gltf", getpid());
   std::ofstream(file)
@@ -313,6 +387,13 @@ TEST_CASE("an imported model's properties are tags of its object, by which it is
       "1 triangles; 4.00 m long (glTF's z, forward), 4.00 m wide (x, left), 0.00 m high (y, up), from 0.00 m above its "
       "origin on");
   CHECK(editor.find("tag extras.mass_kg") == Names{"deer"});
+  // No look is made that no part wears.
+  std::size_t looks = 0;
+  for (const auto& [id, node] : editor.store.nodes()) looks += node.type() == scene::NodeType::material;
+  CHECK(looks == 1);
+  // A key with prefixes of names may import it.
+  for (const auto& [id, node] : editor.store.nodes())
+    if (id >= own_ids && !node.name.empty()) CHECK(node.name.starts_with("deer"));
   const scene::Node& deer = *editor.store.find(own_ids);
   REQUIRE(scene::find_tag(deer, "extras", "kind") != nullptr);
   CHECK(*scene::find_tag(deer, "extras", "kind") == scene::TagValue(std::string("deer")));

@@ -17,6 +17,7 @@
 #include "engine/light/ruts.hpp"
 #include "engine/light/sky_irradiance.hpp"
 #include "engine/light/sky_tables.hpp"
+#include "engine/light/smoke_shade.hpp"
 #include "engine/light/snow.hpp"
 #include "engine/light/soot.hpp"
 #include "engine/light/surface_maps.hpp"
@@ -25,7 +26,7 @@
 
 LIGHT_BEGIN
 
-LIGHT_CONST uint function_count = 55u;
+LIGHT_CONST uint function_count = 56u;
 
 /// A unit vector from two numbers of 0 to 1.
 LIGHT_FN vec3 direction_of(float height, float turn) {
@@ -162,6 +163,11 @@ LIGHT_FN vec4 value_of(uint function, vec4 a, vec4 b) {
                   puff_scatters(vec3(b.x), vec3(b.y)).x);
     case 54u:
       return vec4(mapped_normal(vec3(b.x, b.y, b.z), one, other, direction_of(b.w, a.x)), 0.0f);
+    case 55u:
+      return vec4(normal_share(8.0f * a.x - 4.0f),
+                  below_smoke(3.0f * a.y * vec3(1.0f, a.z, a.z * a.z + 0.1f + a.w), 4.0f * b.x - 2.0f),
+                  smoke_above(3.0f * a.y * vec3(1.0f, a.z, a.z * a.z + 0.1f + a.w), 4.0f * b.x - 2.0f),
+                  sun_within_smoke(3.0f * b.y, 3.0f * b.z + 0.1f, b.w) + around_within_smoke(3.0f * b.y, b.w));
     default:
       return vec4(0.0f);
   }

@@ -1,5 +1,6 @@
 #include "engine/raytrace/geometry.hpp"
 
+#include <memory>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -101,6 +102,44 @@ TEST_CASE("rays in a packet meet and see what each meets and sees alone, through
       }
     }
   }
+}
+
+TEST_CASE(
+    "geometry for few rays keeps a shared mesh's hierarchy while others hold the mesh, and meets what is there now") {
+  const auto leaf_at = [](float height_m) {
+    auto mesh = std::make_shared<scene::SurfaceMesh>();
+    mesh->vertices.resize(3);
+    mesh->vertices[0].position_m = {-1.0f, -1.0f, height_m};
+    mesh->vertices[1].position_m = {1.0f, -1.0f, height_m};
+    mesh->vertices[2].position_m = {0.0f, 1.0f, height_m};
+    mesh->indices = {0, 1, 2};
+    return mesh;
+  };
+  auto geometry = Geometry::create(Rays::few);
+  REQUIRE(geometry.has_value());
+  const auto distance_m = [&](const std::shared_ptr<const scene::SurfaceMesh>& mesh, float x_m) {
+    geometry->keep(0);
+    geometry->add_mesh(mesh, false);
+    geometry->place(std::vector<Place>{{.mesh = 0, .origin_m = {x_m, 0.0f, 0.0f}}}, nullptr);
+    Hit hit;
+    return geometry->intersect({.origin_m = {x_m, 0.0f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}}, hit) ? hit.distance_m
+                                                                                                       : -1.0f;
+  };
+  auto low = leaf_at(0.0f);
+  const auto high = leaf_at(3.0f);
+  for (const float x_m : {0.0f, 10.0f}) {
+    CAPTURE(x_m);
+    CHECK(distance_m(low, x_m) == doctest::Approx(5.0f));
+    CHECK(distance_m(high, x_m) == doctest::Approx(2.0f));
+  }
+  // One in a place of the memory that another has left is another one.
+  const std::weak_ptr<const scene::SurfaceMesh> gone = low;
+  low.reset();
+  CHECK(distance_m(high, 0.0f) == doctest::Approx(2.0f));
+  CHECK(gone.expired());
+  for (int n = 1; n < 50; ++n)
+    CHECK(distance_m(leaf_at(0.1f * static_cast<float>(n)), 0.0f) ==
+          doctest::Approx(5.0f - 0.1f * static_cast<float>(n)));
 }
 
 }  // namespace septet::raytrace

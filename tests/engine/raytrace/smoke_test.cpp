@@ -55,6 +55,24 @@ TEST_CASE("a slab of smoke lets through what Beer and Lambert say") {
   }
 }
 
+TEST_CASE("puffs far apart dim what lies behind each as they do alone, and nothing between") {
+  const instant::SmokePuff near = puff({3.0, 0.1, -0.2}, 1.0f, 2.0f, 0.3f),
+                           far = puff({140.0, -60.0, 9.0}, 1.0f, 4.0f, 0.3f);
+  const std::vector<instant::SmokePuff> both{near, far};
+  const Smoke smoke(both, Vec3(0.0));
+  const auto depth_through = [](const Smoke& in, const Vec3& middle_m) {
+    Ray ray;
+    ray.origin_m = glm::vec3(middle_m) - glm::vec3(0.0f, 8.0f, 0.0f);
+    ray.direction = {0.0f, 1.0f, 0.0f};
+    ray.to_m = 16.0f;
+    return in.optical_depth(ray);
+  };
+  for (const instant::SmokePuff& one : both)
+    CHECK(depth_through(smoke, one.position_m) ==
+          relative(one.extinction_area_m2 / (2.0f * 3.14159265f * one.radius_m * one.radius_m), 0.1));
+  CHECK(depth_through(smoke, {70.0, -30.0, 4.0}) == 0.0f);
+}
+
 TEST_CASE("a puff takes its extinction area from the light in all however fine the cells are") {
   for (const float radius_m : {0.3f, 1.0f}) {
     std::vector<instant::SmokePuff> puffs{puff({3.0, 0.1, -0.2}, radius_m, 2.0f, 0.3f)};

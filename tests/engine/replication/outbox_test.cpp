@@ -163,3 +163,28 @@ TEST_CASE("what waits of a node that is of another type by now says nothing") {
   CHECK(written(outbox, store).empty());
   CHECK(outbox.empty());
 }
+
+TEST_CASE("what was lost is written before all that waits, as it is now, and with all that changed up to its tick") {
+  Store store = store_of(100);
+  for (const NodeId id : {2u, 3u}) REQUIRE(store.apply(NodeCreate{id, NodeType::object}).has_value());
+  const auto name = [](NodeId id) { return Change{{id, SubjectKind::name, 0, 0}}; };
+  Outbox outbox;
+  outbox.mark(name(3), 8);
+  outbox.mark(vertices(10, 20), 8);
+  outbox.mark(name(2), 9);
+  const std::vector<Change> lost{name(2), vertices(0, 5)};
+  outbox.mark_lost(lost, 7);
+  REQUIRE(store.apply(NodeNameSet{2, "now"}).has_value());
+
+  const std::vector<Command> first = written(outbox, store, 1);
+  REQUIRE(first.size() == 1);
+  CHECK(std::get<NodeNameSet>(first[0]).name == "now");
+  CHECK(outbox.goes_on());  // Its last change was at 9.
+  const std::vector<Command> rest = written(outbox, store);
+  REQUIRE(rest.size() == 3);
+  CHECK(std::get<VerticesSet>(rest[0]).first == 0);
+  CHECK(std::get<VerticesSet>(rest[1]).first == 10);
+  CHECK(std::get<NodeNameSet>(rest[2]).node == 3);
+  CHECK(outbox.empty());
+  CHECK_FALSE(outbox.goes_on());
+}

@@ -79,4 +79,11 @@ TEST_CASE("a line that cannot be done is named with its file and number") {
   CHECK(done.error().what.find("tree/1.0/3.0") != std::string::npos);
 }
 
+TEST_CASE("rubbish in a file of edits comes back printable") {
+  Store store;
+  const auto done = apply_edits(store, "\x1b[31m\x80 1\n", "my.edits");
+  REQUIRE_FALSE(done);
+  CHECK(done.error().what.find("\\x1b[31m\\x80") != std::string::npos);
+}
+
 }  // namespace septet::scene

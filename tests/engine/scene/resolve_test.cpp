@@ -393,3 +393,16 @@ TEST_CASE("the material of face index 0 is worn by what has none in whatever ord
     if (scene.materials[part.material].base_color == glm::vec3(1, 0, 0)) red_indices += part.index_count;
   CHECK(red_indices == 4 * 6);
 }
+
+TEST_CASE("a participant whose root is hidden is told so, and shown again, without anything else being placed anew") {
+  Store store;
+  SceneBuilder build(store);
+  const NodeId root = build.add_prototype("participant/5");
+  Resolver resolver;
+  for (const bool hidden : {false, true, false}) {
+    build.apply(HideSet{root, hidden});
+    resolver.update(store);
+    REQUIRE(resolver.scene().prototypes.size() == 1);
+    CHECK(resolver.scene().prototypes[0].is_hidden == hidden);
+  }
+}

@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/physics/impact/impulse.hpp"
 #include "engine/physics/impact/meet.hpp"
 #include "engine/physics/impact/outline.hpp"
 #include "engine/physics/impact/pulse.hpp"
@@ -137,10 +138,9 @@ TEST_CASE("changes of velocity and of yaw rate are those of the bodies, and the 
   }
 }
 
-TEST_CASE("in a drive without tyres ΔV and Δω are those of the closed form's instant, within 2 %") {
+TEST_CASE(
+    "in a drive without tyres ΔV and Δω are those of the closed form's instants, within 2 %, contact by contact") {
   for (const Pair& pair : pairs) {
-    // There a corner touches first, and within the same impact the whole front once more.
-    if (std::string(pair.name) == "into the side") continue;
     CAPTURE(std::string(pair.name));
     CrashSite site = site_of(pair);
     std::vector<Participant> free = site.participants;
@@ -159,14 +159,40 @@ TEST_CASE("in a drive without tyres ΔV and Δω are those of the closed form's 
     REQUIRE(impact.has_value());
     impact::Body instant[] = {first.body, second.body};
     impact::exchange(impact->pulse.impulse, 1.0, instant[0], instant[1]);
-    for (double left_s = impact::duration_s(impact->pulse); left_s > 0.0; left_s -= tick_s) site.tick(false);
+    // Where they meet again before that is over, the next instant is reckoned from the one before, at the drive's place.
+    std::vector<Vec2> met_ns{impact->pulse.impulse.on_second_ns};
+    double left_s = impact::duration_s(impact->pulse);
+    for (; left_s > 0.0; left_s -= tick_s) {
+      site.tick(false);
+      REQUIRE_FALSE(site.state.bodies.contacts.empty());
+      for (const impact::Pulse& pulse : site.state.bodies.contacts.front().engagement.pulses) {
+        const impact::Impulse& told = pulse.impulse;
+        const auto is_known = [&](const Vec2& known_ns) {
+          return glm::distance(known_ns, told.on_second_ns) < 0.02 * glm::length(known_ns);
+        };
+        if (std::ranges::any_of(met_ns, is_known)) continue;
+        met_ns.push_back(told.on_second_ns);
+        instant[0].mass_centre_m = -told.first_arm_m, instant[1].mass_centre_m = -told.second_arm_m;
+        const auto again = impact::impulse_at(instant[0], instant[1], {Vec2(0.0), pulse.normal},
+                                              {pulse.restitution, impact::vehicle_friction(), told.stopped_mps});
+        REQUIRE(again.has_value());
+        impact::exchange(*again, 1.0, instant[0], instant[1]);
+        left_s = std::max(left_s, impact::duration_s(pulse) - pulse.age_s + tick_s);
+      }
+    }
+    CHECK(met_ns.size() == (std::string(pair.name) == "into the side" ? 2 : 1));
     const impact::Body* before[] = {&first.body, &second.body};
     for (std::size_t i = 0; i < 2; ++i) {
       const impact::Body after = site.body_of(site.participants[1 + i]);
       const Vec2 delta_v_mps = instant[i].velocity_mps - before[i]->velocity_mps;
       const double turned_radps = instant[i].yaw_rate_radps - before[i]->yaw_rate_radps;
-      CHECK(glm::distance(after.velocity_mps, instant[i].velocity_mps) < 0.02 * glm::length(delta_v_mps));
-      CHECK(std::abs(after.yaw_rate_radps - instant[i].yaw_rate_radps) < 0.02 * std::max(std::abs(turned_radps), 0.1));
+      const double missed_mps = glm::distance(after.velocity_mps, instant[i].velocity_mps);
+      const double missed_radps = std::abs(after.yaw_rate_radps - instant[i].yaw_rate_radps);
+      MESSAGE(std::string(pair.name) << ", contacts " << met_ns.size() << ": of ΔV " << glm::length(delta_v_mps)
+                                     << " m/s missed " << missed_mps << ", of Δω " << turned_radps << " rad/s "
+                                     << missed_radps);
+      CHECK(missed_mps < 0.02 * glm::length(delta_v_mps));
+      CHECK(missed_radps < 0.02 * std::max(std::abs(turned_radps), 0.1));
     }
   }
 }

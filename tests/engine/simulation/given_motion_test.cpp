@@ -114,6 +114,8 @@ TEST_CASE("a table with faults is refused with the line and the fault") {
   CHECK(says(refusal("time_s,speed_kmh,x_m_pm,y_m_pm\n0,0,1,1\n1,1,1,1\n"),
              "x_m_pm is the ± of a column that is not there"));
   CHECK(says(refusal("time_s,colour\n0,0\n"), "edr.csv:1: \"colour\" is no column"));
+  CHECK(says(refusal("time_s;speed_kmh\n0;50,0\n"), "set commas between the columns"));
+  CHECK(says(refusal("time_s\tspeed_kmh\n0\t50\n"), "set commas between the columns"));
   CHECK(says(refusal("time_s,speed_mps\n0,3\n0,4\n"), "edr.csv:3: time_s 0 follows 0"));
   CHECK(says(refusal("time_s,speed_mps\n0,nan\n"), "edr.csv:2: speed_mps is \"nan\""));
   CHECK(says(refusal("time_s,speed_mps,speed_mps_pm\n0,3,-1\n"), "speed_mps_pm is \"-1\""));

@@ -20,7 +20,7 @@ TEST_CASE("an operator's command comes back from its text to the last bit") {
         OperatorCommand(SetFault{0, true}), OperatorCommand(SetFault{fault_names().size() - 1, false}),
         OperatorCommand(PutCar{1.0 / 3.0, -1e6 / 7.0, -0.1, 13.7}),
         OperatorCommand(Call{"lift", "a b = c", {{"words", "please wait"}}, "lab"}), OperatorCommand(OverlookWish{}),
-        OperatorCommand(OverlookWish{1007, "a b = c"}),
+        OperatorCommand(OverlookWish{1007, "a b = c"}), OperatorCommand(SetHazard{"a b = c", 1.0 / 3.0, -1e6 / 7.0}),
         OperatorCommand(PeopleErrorRates{{1.0 / 3.0, 0.0, 2.0, 1000.0}})}) {
     const auto read = parse_operator_command(text_of(command));
     REQUIRE(read.has_value());
@@ -56,6 +56,10 @@ TEST_CASE("what is no command, or asks for what is out of range, is refused") {
                            "place x_m=1 y_m=1e300 part=traffic-cone",
                            "place x_m=1 part=traffic-cone y_m=2",
                            "place y_m=1 x_m=2 part=traffic-cone",
+                           "hazard x_m=1 y_m=2",
+                           "hazard x_m=1 y_m=2 name=",
+                           "hazard x_m=nan y_m=2 name=a",
+                           "hazard y_m=1 x_m=2 name=a",
                            "remove thing=",
                            "remove thing=-1",
                            "remove thing=4294967296",

@@ -169,6 +169,9 @@ TEST_CASE(
   CHECK(std::ranges::count(frame.participants, 1u, &instant::DrawnParticipant::prototype) == 1);
   for (const instant::DrawnParticipant& drawn : frame.participants)
     CHECK(drawn.world_from_vehicle.position_m == world.participants[1].world_from_vehicle.position_m);
+
+  scene.prototypes[1].is_hidden = true;
+  CHECK(frames.frame(world, scene).participants.empty());
 }
 
 TEST_CASE("an object that moves is drawn where its motion has it at the instant shown") {

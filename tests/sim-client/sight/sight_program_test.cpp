@@ -1,5 +1,6 @@
 #include "sim-client/sight/sight_program.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -15,6 +16,7 @@
 #include "engine/scene/builder.hpp"
 #include "engine/scene/command_codec.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
+#include "engine/world/rider.hpp"
 #include "sim-client/sight/pairs.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/why_not.hpp"
@@ -23,7 +25,7 @@ namespace septet::sight {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr Tick last_tick = 240;
+constexpr Tick last_tick = 240, left_tick = 120;
 constexpr ParticipantId driver = 1, crosser = 4;
 
 /// The driver's car drives along x towards a walker who comes from the right behind a wall; they touch at tick 228.
@@ -44,7 +46,20 @@ Snapshot crossing(Tick tick) {
   return world;
 }
 
-fs::path record_crossing(const fs::path& file, bool with_scene) {
+/// A cyclist who leaves the machine at tick 120 for a place 12 m to its left.
+Snapshot thrown_cyclist(Tick tick) {
+  Snapshot world = crossing(tick);
+  world.participants.back().model = *find_vehicle_model("bicycle");
+  if (tick < left_tick) return world;
+  Participant rider = world.participants.back();
+  rider.id = rider_of(crosser);
+  rider.model = *find_vehicle_model("pedestrian");
+  rider.world_from_vehicle.position_m.y += 12.0;
+  world.participants.push_back(rider);
+  return world;
+}
+
+fs::path record_crossing(const fs::path& file, bool with_scene, Snapshot (*world_at)(Tick) = crossing) {
   auto info = logging::example_info();
   info.other["participant_names"] = R"({"1": "ego", "4": "walker"})";
   auto writer = logging::SessionWriter::create(file, info);
@@ -62,7 +77,7 @@ fs::path record_crossing(const fs::path& file, bool with_scene) {
     wall.materials.push_back(builder.add_material("brick", {.roughness = 1.0f}));
     builder.add_object("wall", wall);
   }
-  for (Tick tick = 0; tick <= last_tick; ++tick) writer->record(logging::taken(crossing(tick)));
+  for (Tick tick = 0; tick <= last_tick; ++tick) writer->record(logging::taken(world_at(tick)));
   writer->record(logging::Event{.tick = 228,
                                 .simulated_time_s = 1.9,
                                 .kind = "collision",
@@ -214,6 +229,33 @@ TEST_CASE("a session without a scene, unknown names and empty spans are refused 
   CHECK(refused().find("not a part of the session") != std::string::npos);
   options.session = folder / "none.sqlite";
   CHECK(refused().find("none.sqlite") != std::string::npos);
+}
+
+TEST_CASE("sight goes on with the rider who has left the machine, both ways, and says from when on") {
+  const TemporaryFolder folder;
+  SightOptions options;
+  options.session = record_crossing(folder / "session.sqlite", true, thrown_cyclist);
+  options.out = folder / "sight";
+  options.mirrors = false;
+  const auto done = run_sight(options);
+  REQUIRE_MESSAGE(done.has_value(), why_not(done));
+  const auto rows = straight_rows(options.out / "sight.csv");
+  bool looks_back = false;
+  for (const Row& row : rows) {
+    CAPTURE(row.tick);
+    CHECK(((row.observer == driver && row.target == crosser) || (row.observer == crosser && row.target == driver)));
+    looks_back |= row.observer == crosser && row.tick >= left_tick;
+    if (row.observer != driver) continue;
+    const double time_s = static_cast<double>(row.tick) / 120.0, aside_m = row.tick < left_tick ? 0.0 : 12.0;
+    const double level_m = std::hypot(23.0 - 10.0 * time_s, -3.0 + 1.5 * time_s + aside_m);
+    CHECK(std::abs(row.distance_m - level_m) < 1.5);  // The driver's eyes are ahead of and above the car's origin.
+    if (row.tick == left_tick) CHECK(row.share > 0.5);
+  }
+  CHECK(looks_back);
+  const std::string text = text_of(options.out / "sight.txt");
+  CAPTURE(text);
+  CHECK(text.find("from 1.00 s on 4 walker is the rider, off the machine") != std::string::npos);
+  CHECK(text.find("8196") == std::string::npos);
 }
 
 }  // namespace septet::sight

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <vector>
 
 #include "smoke_fixtures.hpp"
+#include "tests/engine/effects/smoke/fire_of_power.hpp"
 #include "tests/relative.hpp"
 
 using namespace septet;
@@ -17,50 +20,13 @@ namespace {
 
 constexpr double width_m = 11.0, height_m = 7.0;
 
-/// A level tube of metre cells, and 5 MW at each place: 0.1 g of soot a gram, 25 MJ/kg, 8.7 m²/g, 30 % radiated.
+/// A level tube of metre cells, and 5 MW at each place.
 State tube_with_fires(double length_m, std::initializer_list<double> fires_m) {
-  constexpr double power_mw = 5.0, births_per_s = 200.0;
   std::vector<Emitter> fires;
-  for (const double x_m : fires_m) {
-    Emitter fire;
-    fire.position_m = {x_m, 0.5 * width_m, 2.0};
-    fire.radius_m = 1.2;
-    fire.rate_per_s = births_per_s;
-    fire.heat = 2.0;
-    fire.cooling_s = 120.0;
-    fire.sinking = 0.02;
-    fire.lifetime_s = 0.0;
-    fire.extinction_area_m2 = power_mw / 25.0 * 1000.0 * 0.1 * 8.7 / births_per_s;
-    fire.warmth_j = 0.7 * power_mw * 1e6 / births_per_s;
-    fires.push_back(fire);
-  }
-  Parameters parameters;
-  parameters.roof_mirrors = true;
-  parameters.speed_cells_per_s = 8.0;
+  for (const double x_m : fires_m) fires.push_back(fire_of_power({x_m, 0.5 * width_m, 2.0}, 5.0));
   return make_smoke(make_grid({}, 1.0, static_cast<int>(length_m), static_cast<int>(width_m),
                               static_cast<int>(height_m), open_x_low | open_x_high),
-                    fires, 1, 20'000, parameters);
-}
-
-void burn(State& state, double seconds, double draught_mps) {
-  for (int tick = 0; tick < static_cast<int>(seconds / step_s); ++tick)
-    advance_smoke(state, Vec3(draught_mps, 0.0, 0.0), {}, step_s);
-}
-
-/// Mean extinction of the layer of cells k over slices [from, to).
-double extinction_of(const State& state, int k, int from, int to) {
-  double area_m2 = 0.0;
-  for (int j = 0; j < state.grid.ny; ++j)
-    for (int i = from; i < to; ++i) area_m2 += state.extinction_area_m2[state.grid.index(i, j, k)];
-  return area_m2 / (state.grid.ny * (to - from));
-}
-
-/// Farthest slice on this side (±1) of the fire whose five metres under the roof have 0.3 1/m: a tenth of the layer's.
-int reach_m(const State& state, int fire_m, int side) {
-  int reach = 0;
-  for (int i = fire_m; i >= 2 && i + 3 <= state.grid.nx; i += side)
-    if (extinction_of(state, state.grid.nz - 1, i - 2, i + 3) > 0.3) reach = std::abs(i - fire_m);
-  return reach;
+                    fires, 1, 20'000, under_a_roof());
 }
 
 double in_air_m2(const State& state) {

@@ -124,6 +124,8 @@ TEST_CASE("a drive on the motorway that is saved and restored goes on as if noth
   for (const SavedDrive& saved : drive_and_save("first-lesson", "plain", 1, {1500}))
     check_that_it_goes_on("first-lesson", 1, saved);
   for (const SavedDrive& saved : drive_and_save("town", "plain", 1, {1500})) check_that_it_goes_on("town", 1, saved);
+  for (const SavedDrive& saved : drive_and_save("hazards", "plain", 1, {4200}))
+    check_that_it_goes_on("hazards", 1, saved);
 }
 
 TEST_CASE("a drive that is saved in the middle of smoke goes on as if nothing had been") {
@@ -155,9 +157,9 @@ TEST_CASE("no shipped scenario is without a drive that is saved") {
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(source_folder()) / "scenarios"))
     if (std::filesystem::exists(entry.path() / (entry.path().filename().string() + ".xosc")))
       shipped.insert(entry.path().filename().string());
-  CHECK(shipped == std::set<std::string>{"behind-ambulance", "crossing-crash", "first-lesson", "motorway-ambulance",
-                                         "pile-up", "rescue-lane", "town", "tunnel-fire", "walker-behind-van",
-                                         "winter-lorry"});
+  CHECK(shipped == std::set<std::string>{"behind-ambulance", "crossing-crash", "first-lesson", "hazards",
+                                         "motorway-ambulance", "pile-up", "rescue-lane", "town", "tunnel-fire",
+                                         "walker-behind-van", "winter-lorry"});
 }
 
 TEST_CASE(
