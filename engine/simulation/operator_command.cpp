@@ -279,17 +279,23 @@ std::optional<road::LanePosition> lane_to_put_on(const road::RoadNetwork& roads,
   return nearest;
 }
 
+/// True where a vehicle that is put at a place would stand in somebody.
+bool is_taken(const Model& model, const State& state, const Vec3& place_m) {
+  std::vector<Participant> others;
+  append_others(model, state, others);
+  return std::ranges::any_of(others, [&](const Participant& other) {
+    return glm::distance(other.world_from_vehicle.position_m, place_m) < free_around_put_m;
+  });
+}
+
 Expected<void> apply(const Model& model, const PutCar& put, State& state, std::vector<Event>&) {
   const auto lane = lane_to_put_on(model.roads, {put.x_m, put.y_m}, put.heading_rad);
   if (!lane)
     return failure(fmt::format("there is no lane to drive in within {:g} m", furthest_put_m), "put",
                    "choose a place on a road");
   const road::LanePoint point = road::evaluate_lane(model.roads, *lane);
-  std::vector<Participant> others;
-  append_others(model, state, others);
-  for (const Participant& other : others)
-    if (glm::distance(other.world_from_vehicle.position_m, point.road.position_m) < free_around_put_m)
-      return failure("somebody stands there", "put", "choose another place, or wait");
+  if (is_taken(model, state, point.road.position_m))
+    return failure("somebody stands there", "put", "choose another place, or wait");
   state.car = vehicle::standstill(model.car, road::world_from_lane(point), put.speed_mps);
   state.hull = {};
   state.impacts.clear();
@@ -320,11 +326,8 @@ Expected<void> apply(const Model& model, const SetHazard& set, State& state, std
   if (away_m < nearest_hazard_m || away_m > furthest_hazard_m)
     return failure(fmt::format("it would be {:.0f} m from the driver's car", away_m), "hazard",
                    fmt::format("choose a place from {:g} to {:g} m away", nearest_hazard_m, furthest_hazard_m));
-  std::vector<Participant> others;
-  append_others(model, state, others);
-  for (const Participant& other : others)
-    if (glm::distance(other.world_from_vehicle.position_m, place_m) < free_around_put_m)
-      return failure("somebody stands there", "hazard", "choose another place, or wait");
+  if (is_taken(model, state, place_m))
+    return failure("somebody stands there", "hazard", "choose another place, or wait");
   scenario::bring_into_world(model.roads, first_actor(**act), *lane, state.scenario);
   scenario::StepResult result;
   auto done = scenario::trigger_element(model.scenario, model.roads, (*act)->element, state.scenario, result);

@@ -7,19 +7,11 @@ import sys
 import tempfile
 import time
 
-from edited_drive import EditedDrive, run, triangle_glb, use_module_of
+from edited_drive import EditedDrive, refused, run, triangle_glb, use_module_of
 
 septet_program = pathlib.Path(sys.argv[1])
 use_module_of(septet_program)
 import septet  # noqa: E402
-
-
-def refused(change) -> septet.Refused:
-    try:
-        change()
-    except septet.Refused as why:
-        return why
-    raise AssertionError("nothing was refused")
 
 
 def end_lifetimes(host: str, port: int, keys: pathlib.Path, glb: pathlib.Path) -> int:

@@ -32,6 +32,16 @@ def use_module_of(septet_program: pathlib.Path) -> None:
     os.environ["PYTHONPATH"] = str(root / "command-line/python")
 
 
+def refused(change):
+    """Why the server refused it."""
+    import septet
+    try:
+        change()
+    except septet.Refused as why:
+        return why
+    raise AssertionError("nothing was refused")
+
+
 def triangle_glb(height_m: float = 1) -> bytes:
     """A red triangle, a metre wide."""
     numbers = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, height_m, 0)

@@ -6,19 +6,11 @@ import subprocess
 import sys
 import tempfile
 
-from edited_drive import EditedDrive, root, triangle_glb, use_module_of
+from edited_drive import EditedDrive, refused, root, triangle_glb, use_module_of
 
 septet_program = pathlib.Path(sys.argv[1])
 use_module_of(septet_program)
 import septet  # noqa: E402
-
-
-def refused(change) -> septet.Refused:
-    try:
-        change()
-    except septet.Refused as why:
-        return why
-    raise AssertionError("nothing was refused")
 
 
 def the_first_lines_of_the_document_are_done(keys: pathlib.Path, folder: pathlib.Path) -> None:
